@@ -33,7 +33,7 @@ rm -rf "$lammps/src/LSM"
 mkdir "$lammps/src/LSM"
 # LAMMPS compiles what lies in the folder of the package itself, and refuses names that its own sources have; headers are
 # found in folders below. The plugin's entry point has no place in a package that is compiled in.
-cp "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/LSM/support/* "$here"/LSM/scene/* "$lammps/src/LSM/"
+cp "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/LSM/support/* "$here"/LSM/speed/*.{h,cpp} "$here"/LSM/scene/* "$lammps/src/LSM/"
 for room in "$here"/core/*/; do
   name=$(basename "$room")
   mkdir "$lammps/src/LSM/$name"
@@ -60,6 +60,13 @@ grep -q '^  LSM$' "$list" || {
   echo "install-into-lammps: $list could not be changed" >&2
   exit 1
 }
+# The checksums of restart files are zlib's.
+grep -q 'ZLIB::ZLIB)  *# LSM' "$list" || cat >>"$list" <<'EOF'
+if(PKG_LSM)
+  find_package(ZLIB REQUIRED)
+  target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM
+endif()
+EOF
 cat <<EOF
 Package LSM is in $lammps/src/LSM, its pages in doc/src, its scenes in examples/PACKAGES/lsm. Build for example with
   cmake -S $lammps/cmake -B lammps-build -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS="-ffp-contract=off -fno-math-errno" \\

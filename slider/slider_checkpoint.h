@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_checkpoint.h
-/// Checkpoints hold all that a run needs to continue to the last digit, as CBOR (RFC 8949) with a
-/// CRC-32.
+/// Checkpoints hold all that a run needs to continue to the last digit:
+///
+///   slider_cli checkpoint VERSION CRC       CRC-32 of all that follows
+///   key = value                             one line for each setting
+///                                           an empty line, then doubles, see files/state.h
 #ifndef SLIDER_CHECKPOINT_H
 #define SLIDER_CHECKPOINT_H
 
@@ -15,6 +18,9 @@
 #include "slider_ruptures.h"
 
 namespace Slider {
+
+/// The setting that may change when a run is continued.
+constexpr const char *steps_key = "steps";
 
 /// Counts of the events of a run so far.
 struct EventCounts : LSM::FilterCounts {
@@ -31,6 +37,17 @@ struct RunState : EventCounts {
   std::vector<double> u_start;  ///< displacements when it began
   RuptureState ruptures;
   std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or end of a leap
+
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state.raw(self.picker);
+    LSM::FilterCounts::visit(self, state);
+    state(self.by_plate, self.largest, self.chain, self.slip_start);
+    state.list(self.u_start);
+    state.list(self.ruptures.open);
+    state.list(self.ruptures.recent);
+    state(self.calm_since);
+  }
 };
 
 /// Replaces the file atomically, so that a complete checkpoint exists at any moment.
@@ -39,7 +56,7 @@ struct RunState : EventCounts {
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 
-/// Reads a checkpoint of a run with the same settings.
+/// Reads a checkpoint of a run with the same settings, but for the number of steps.
 /// \throws std::runtime_error with one line if the file is damaged, or of another version, or of a
 /// run with other settings, of which the first is named
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);

@@ -34,6 +34,14 @@ struct ChainState {
   std::vector<double> rest;
   /// Slips in the next step, for the scheme without inertia; empty: from the present velocities.
   std::vector<double> ahead;
+
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.step, self.slip_sum, self.slip_compensation, self.pe_sum, self.pe_compensation,
+          self.quiet_since, self.pe_anchor, self.loading_anchor, self.moved, self.dpe,
+          self.radiated, self.radiated_compensation);
+    for (auto *values : {&self.u, &self.v, &self.rest, &self.ahead}) state.list(*values);
+  }
 };
 
 /// PE of all springs, summed directly: the initial value of PeAccount, and a check of its later

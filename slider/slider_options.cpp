@@ -207,7 +207,8 @@ class CommandLine {
     add_whole(group, "--checkpoint-interval", run_.checkpoint_interval, 0,
               "Steps between checkpoints; 0: only when interrupted and at the end (steps)");
     group.flag("--resume", run_.resume,
-               "Continue from the checkpoint; the catalogue ends as if never interrupted",
+               "Continue from the checkpoint, a finished run also for longer; the catalogue ends as "
+               "if never interrupted",
                needs(checkpoint));
     group.flag("--overwrite", run_.overwrite,
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "
@@ -374,7 +375,7 @@ class CommandLine {
     add("slip_distance", p_.friction.dc, law == Law::slip_weakening);
     add("scheme", to_string(p_.scheme));
     add("dt", p_.dt);
-    add("steps", run_.steps);
+    add(steps_key, run_.steps);
     add("leap", run_.leap_speed, leaps);
     add("leap_calm", leap_calm, leaps);
     add("events", to_string(run_.events), ruptures);

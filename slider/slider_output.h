@@ -50,8 +50,8 @@ class Outputs {
     if (!o_.catalogue.empty())
       catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, events);
     if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step);
-    if (!o_.catalogue.empty()) catalogue_.cut();
-    if (!o_.series.empty()) series_.cut();
+    if (!o_.catalogue.empty()) catalogue_.cut_with_new_header();
+    if (!o_.series.empty()) series_.cut_with_new_header();
   }
 
   void event(const LSM::Event &event) {

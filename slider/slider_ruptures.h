@@ -33,6 +33,10 @@ struct Rupture : LSM::SlipSet {
   double slip_cos = 0.0, slip_sin = 0.0;  ///< slips times direction of the block on the ring
   double pe_start = 0.0, pe_end = 0.0;    ///< PE of the whole chain at step_start, step_end
 
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state.raw(self);
+  }
   void absorb(const Rupture &later) {
     size += later.size;
     slip += later.slip;

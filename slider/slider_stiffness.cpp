@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slider_stiffness.h"
 
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "files/checksum.h"
 #include "files/file_error.h"
 #include "files/input_bytes.h"
 #include "files/line_reader.h"
@@ -141,13 +141,8 @@ std::vector<double> read_strengths(const std::string &path, int blocks) {
 }
 
 std::string named_with_checksum(const std::string &path) {
-  LSM::text_io::FileBytes file(path);
-  std::vector<char> part(1 << 16);
-  uLong sum = crc32_z(0, nullptr, 0);
-  while (const std::size_t n = file.read(part.data(), part.size()))
-    sum = crc32_z(sum, reinterpret_cast<const Bytef *>(part.data()), n);
   char text[16];
-  std::snprintf(text, sizeof text, " %08lx", sum);
+  std::snprintf(text, sizeof text, " %08x", LSM::sum_of_file(path).crc32);
   return path + text;
 }
 

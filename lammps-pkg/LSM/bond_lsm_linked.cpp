@@ -330,9 +330,8 @@ void BondLSMLinked::init_style()
 
 void BondLSMLinked::coefficients_in(LSMRestartFile file)
 {
-  const int n = atom->nbondtypes;
   file.version();
-  for (auto *of_types : {&k, &ratio, &delay}) file(&(*of_types)[1], n);
+  for (auto *of_types : {&k, &ratio, &delay}) file.fixed(*of_types);
 }
 
 void BondLSMLinked::write_restart(FILE *fp)

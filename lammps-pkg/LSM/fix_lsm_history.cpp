@@ -6,6 +6,7 @@
 #include "comm.h"
 #include "error.h"
 #include "lsm_scene.h"
+#include "neighbor.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
 
@@ -26,6 +27,12 @@ FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) :
 
 void FixLSMHistory::init()
 {
+  if (ipage_atom && (pgsize != neighbor->pgsize || oneatom != neighbor->oneatom))
+    error->all(FLERR,
+               "Pair style lsm/friction would lose its contacts: 'neigh_modify one {} page {}' "
+               "became 'one {} page {}' after the first run; give neigh_modify one and page before "
+               "it, or continue from a restart file",
+               oneatom, pgsize, neighbor->oneatom, neighbor->pgsize);
   FixNeighHistory::init();
   if (update->whichflag == 2)
     error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on "

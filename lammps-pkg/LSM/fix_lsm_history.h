@@ -21,7 +21,7 @@ FixStyle(LSM_HISTORY,FixLSMHistory);
 
 namespace LAMMPS_NS {
 
-class FixLSMHistory : public FixNeighHistory {
+class FixLSMHistory : public FixNeighHistory, public LSMContactStore {
  public:
   FixLSMHistory(class LAMMPS *, int, char **);
   void init() override;
@@ -31,11 +31,9 @@ class FixLSMHistory : public FixNeighHistory {
   void restart(char *) override;
   void unpack_restart(int, int) override;
 
-  /// Whether a pair has a history, and the history.
-  int *touch_of(const LSMNearPairs::Pair &pair) { return &firstflag[pair.i][pair.jj]; }
-  double *values_of(const LSMNearPairs::Pair &pair) { return &firstvalue[pair.i][dnum * pair.jj]; }
-  /// Makes room for the pair that was added as entry jj, the last, to the neighbors of particle i.
-  void add_pair(int i, int jj);
+  int *touch_of(int i, int jj) override { return &firstflag[i][jj]; }
+  double *values_of(int i, int jj) override { return &firstvalue[i][dnum * jj]; }
+  void add_pair(int i, int jj) override;
 
  private:
   struct Row {

@@ -12,6 +12,7 @@
 #include "force.h"
 #include "group.h"
 #include "lsm_energy.h"
+#include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
@@ -55,7 +56,7 @@ FixLSMLeap::~FixLSMLeap()
 {
   // the other fixes may already be gone
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
-  for (auto *p : LSMScene::fixes<FixLSMNVE>(modify)) p->raise_viscosity(0.0);
+  for (auto *p : lsm_fixes<FixLSMNVE>(modify)) p->raise_viscosity(0.0);
 }
 
 void FixLSMLeap::init()
@@ -82,7 +83,7 @@ void FixLSMLeap::init()
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
     error->all(FLERR, "More than one fix lsm/leap");
 
-  integrators = LSMScene::fixes<FixLSMNVE>(modify);
+  integrators = lsm_fixes<FixLSMNVE>(modify);
   if (integrators.empty()) error->all(FLERR, "Fix lsm/leap {} needs a fix lsm/nve", id);
 
   contacts.clear();

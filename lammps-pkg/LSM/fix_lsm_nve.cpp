@@ -13,6 +13,7 @@
 #include "force.h"
 #include "group.h"
 #include "integrate.h"
+#include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
@@ -298,7 +299,7 @@ bool FixLSMNVE::may_clear() const
 {
   if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||
       neighbor->includegroup || atom->avec->forceclearflag ||
-      LSMScene::fixes<FixLSMNVE>(modify).size() > 1 || !LSMScene::foreign_forces(force).empty())
+      lsm_fixes<FixLSMNVE>(modify).size() > 1 || !LSMScene::foreign_forces(force).empty())
     return false;
   constexpr int LOOKS = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | POST_FORCE;
   for (const auto &other : modify->get_fix_list())

@@ -10,6 +10,7 @@
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
@@ -106,7 +107,7 @@ void FixLSMPlates::init()
   }
   vy_known = true;
 
-  integrators = LSMScene::fixes<FixLSMNVE>(modify);
+  integrators = lsm_fixes<FixLSMNVE>(modify);
 
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {

@@ -7,6 +7,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_lsm_nve.h"
+#include "lsm_fixes.h"
 #include "lsm_mover.h"
 #include "lsm_scene.h"
 #include "modify.h"
@@ -72,8 +73,8 @@ void FixLSMVelocity::init()
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
                "whose blocks move faster than in model time",
                leap->id);
-  for (const auto *mover : LSMScene::fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
-  if (LSMScene::fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(update))
+  for (const auto *mover : lsm_fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
+  if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(update))
     error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
                       "velocities to the time of the forces");
 }

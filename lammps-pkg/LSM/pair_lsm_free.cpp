@@ -18,7 +18,7 @@
 
 #include "friction/force_laws.h"
 #include "lsm_contact_recorder.h"
-#include "lsm_pair_search.h"
+#include "lsm_fixes.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
@@ -29,7 +29,7 @@
 using namespace LAMMPS_NS;
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), patch(_lmp), travel(_lmp)
+    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), near(_lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -48,45 +48,13 @@ void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  find_near(1.0, nullptr);
+  near.update(*list, contact_radii());
   if (evflag)
     loop<LSMRecordAndTally>();
   else if (record_what)
     loop<LSMRecordEnergies>();
   else
     loop<LSMRecordNothing>();
-}
-
-int PairLSMFree::find_near(double reach, const int *const *touch)
-{
-  using Due = LSMNearPairs::Due;
-  if (update->setupflag) near.clear();    // the number of a build may have been used before
-  const std::vector<double> &moves = travel.since_last();
-  const double *const x = atom->x[0], *const radius = contact_radii();
-  const int count = atom->nlocal + atom->nghost;
-  const Due due = near.due(neighbor->ncalls, *list, x, atom->nlocal, count, moves);
-  const bool chooses = due == Due::new_list || due == Due::choice;
-  const int kept_before = chooses ? 0 : static_cast<int>(near.kept().size());
-
-  if (due == Due::new_list) {
-    if (update->setupflag) LSMPairSearch::take_over(lmp, *list);
-    screened ? patch.stop() : patch.start(*list, active);
-  } else {
-    const auto &added = due == Due::choice    ? patch.look_at_all(0)
-                        : near.knows_strays() ? patch.look_at(near.strays())
-                                              : patch.look_at_all(atom->nlocal);
-    for (const LSMListPatch::Added &pair : added) {
-      note_added(pair.i, pair.jj);
-      near.add(pair.i, pair.jj, pair.j, radius);
-    }
-  }
-  if (chooses) {
-    note_contacts();
-    near.choose(x, radius, reach, touch);
-  } else if (due == Due::strays)
-    near.keep_pairs_of_strays(radius);
-  near.find(x);
-  return kept_before;
 }
 
 template <class Recorder> void PairLSMFree::loop()
@@ -107,8 +75,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
   Recorder recorder(*this, update->setupflag != 0);
 
   for (int n = 0; n < near.size(); n++) {
-    const LSMNearPairs::Pair &pair = near.kept()[near[n]];
-    const int i = pair.i, entry = list->firstneigh[i][pair.jj], j = entry & NEIGHMASK;
+    const int i = near.pair(near[n]).i, j = near.pair(near[n]).j;
     const double delx = x[i][0] - x[j][0];
     const double dely = x[i][1] - x[j][1];
     double delz = 0.0;
@@ -119,7 +86,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
     }
     const double r0 = radius[i] + radius[j];
     if (rsq >= r0 * r0) continue;
-    if (screened && left_out(entry, i, j)) continue;
+    if (screened && near.is_left_out(near[n])) continue;
 
     const double kij = k[type[i]][type[j]];
     const double r = sqrt(rsq);
@@ -167,11 +134,6 @@ double PairLSMFree::dashpot(int i, int j, double r, double spring, double &rate)
 {
   rate = velocity->rate(i, j, r);
   return LSM::contact_dashpot_force(viscosity(atom->type[i], atom->type[j]), rate, spring);
-}
-
-bool PairLSMFree::left_out(int entry, int i, int j) const
-{
-  return !active[atom->type[i]][atom->type[j]] || force->special_lj[sbmask(entry)] == 0.0;
 }
 
 // Checks that linked particles are not contact pairs, and all others are. Under pair_style hybrid
@@ -244,9 +206,7 @@ void PairLSMFree::init_style()
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   record_nothing();
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
-  near.clear();    // the list may have changed, and its builds are counted anew
-  patch.stop();
-  const auto others = LSMScene::fixes<LSMContactRadii>(modify);
+  const auto others = lsm_fixes<LSMContactRadii>(modify);
   own_radii = others.empty() ? nullptr : others.front();
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
@@ -264,6 +224,7 @@ void PairLSMFree::init_style()
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
              (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
+  near.init(active, screened, *this);
   if (update->whichflag) {
     if (!under_hybrid) check_special();
     if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
@@ -354,11 +315,9 @@ void PairLSMFree::coefficients_in(LSMRestartFile file)
   const int n = atom->ntypes;
   for (int i = 1; i <= n; i++)
     for (int j = i; j <= n; j++) {
-      file(&setflag[i][j]);
+      file(setflag[i][j]);
       if (!setflag[i][j]) continue;
-      file(&on[i][j]);
-      file(&k[i][j]);
-      file(&delay[i][j]);
+      file(on[i][j], k[i][j], delay[i][j]);
       keep_law(file, i, j);
     }
 }

@@ -11,8 +11,6 @@ PairStyle(lsm/free,PairLSMFree);
 #define LMP_PAIR_LSM_FREE_H
 
 #include "lsm_energy.h"
-#include "lsm_list_patch.h"
-#include "lsm_mover.h"
 #include "lsm_near_pairs.h"
 #include "lsm_type_pairs.h"
 #include "pair.h"
@@ -59,28 +57,17 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   int request_flags;             // for the request of the neighbor list
   int newton_pair = 0;
   LSMNearPairs near;
-  LSMListPatch patch;
-  LSMTravel travel;
   bool screened = false;                         // the list holds pairs that must not interact
   const LSMContactRadii *own_radii = nullptr;    // a fix that gives contacts radii of their own
 
   class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
 
   const double *contact_radii() const;
-  /// Finds the pairs that touch. Returns how many of the pairs that are kept were kept in the step
-  /// before, too, which come first; none if pairs were chosen anew.
-  int find_near(double reach, const int *const *touch);
-  /// Called before other pairs are chosen, so that derived classes can save the state of those that
-  /// are kept.
-  virtual void note_contacts() {}
-  /// Called when a pair was added at the end of the neighbors of particle i.
-  virtual void note_added(int /*i*/, int /*jj*/) {}
   /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Sets
   /// `rate` to the rate of change of r.
   double dashpot(int i, int j, double r, double spring, double &rate) const;
   bool any_delay() const;
 
-  bool left_out(int entry, int i, int j) const;
   void check_special() const;
   void find_largest_radii();
   void warn_of_missing_links() const;

@@ -11,14 +11,16 @@ PairStyle(lsm/friction,PairLSMFriction);
 #ifndef LMP_PAIR_LSM_FRICTION_H
 #define LMP_PAIR_LSM_FRICTION_H
 
+#include "lsm_friction_loop.h"
 #include "lsm_law_table.h"
 #include "pair_lsm_free.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class PairLSMFriction : public PairLSMFree {
+class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
  public:
   PairLSMFriction(class LAMMPS *);
   ~PairLSMFriction() override;
@@ -38,8 +40,7 @@ class PairLSMFriction : public PairLSMFree {
   void load_contacts(const double *shear);
   /// Writes the contacts of the last evaluation into the history. To be called before the history
   /// is read.
-  void note_contacts() override;
-  void note_added(int i, int jj) override;
+  void note_contacts() { near.write_states(); }
 
  protected:
   void allocate() override;
@@ -49,22 +50,6 @@ class PairLSMFriction : public PairLSMFree {
   void print_law(FILE *fp, int i, int j) override { table.print(fp, i, j); }
 
  private:
-  // The data of a pair that is kept, until other pairs are chosen. In LAMMPS' arrays they would be
-  // scattered over a dozen cache lines. The histories of all pairs are copied from there and back.
-
-  struct Site {
-    int i, j;
-    int types;      // index of the coefficients of their types
-    int across;     // see across_fault()
-    double r0;      // sum of the radii
-    double size;    // effective size of the contact
-  };
-  std::vector<Site> sites;
-  std::vector<double> histories;
-  bigint sites_build = -1;    // number of the neighbor list build that the sites are from
-  int kept_before = 0;        // the sites from this one on were collected in this step
-  bool noted = true;          // the history is up to date with the sites
-
   LSMLawTable table;
   std::vector<std::string> common;    // coefficients after kt where pair_coeff has none
   const LSMLaw *running;              // first law of the name that fits all coefficients
@@ -74,11 +59,12 @@ class PairLSMFriction : public PairLSMFree {
   class FixDummy *fix_dummy = nullptr;
   class FixLSMHistory *fix_history = nullptr;
 
-  template <class Law, class Recorder> class Loop;
+  bool is_left_out(int place) const override;
+  double drag(const LSMContacts::Pair &, double r, double spring, double share) override;
+  void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
+             double dely) override;
   template <class Law, class Recorder> void run_loop();
   void choose(const LSMLaw *);
-  void collect_sites(int first);
-  int entry_of(int place) const;    // in the neighbor list
   void check_periods() const;
   int size_history() const;
   double near_reach() const;

@@ -64,7 +64,7 @@ add_custom_target(lammps_stock DEPENDS ${lammps_stamp} ${style_stamp})
 # stand among the objects of the program, so the linker takes nothing of the kind from the archive.
 add_library(lammps_with_lsm OBJECT ${lammps_source}/src/force.cpp ${lammps_source}/src/modify.cpp
                                    ${lammps_source}/src/input.cpp ${lammps_source}/src/lammps.cpp)
-target_include_directories(lammps_with_lsm BEFORE PRIVATE ${style_folder} LSM LSM/scene LSM/support)
+target_include_directories(lammps_with_lsm BEFORE PRIVATE ${style_folder} LSM LSM/scene LSM/speed LSM/support)
 target_include_directories(lammps_with_lsm SYSTEM PRIVATE ${lammps_build}/styles)
 target_link_libraries(lammps_with_lsm PRIVATE lammps_headers lsm_core)
 target_compile_options(lammps_with_lsm PRIVATE -fno-semantic-interposition)

@@ -4,7 +4,7 @@
 set(LSM_STOCK_LMP "" CACHE INTERNAL "Stock lmp that loads the plugin")
 add_custom_target(lammps_stock)
 add_library(lsm_registered OBJECT LSM/plugin/lsm_plugin.cpp LSM/plugin/lsm_register.cpp)
-target_include_directories(lsm_registered PRIVATE LSM LSM/scene LSM/support ${style_folder}/own)
+target_include_directories(lsm_registered PRIVATE LSM LSM/scene LSM/speed LSM/support ${style_folder}/own)
 target_link_libraries(lsm_registered PRIVATE lammps_headers lsm_core lsm_build_flags)
 set_target_properties(lsm_registered PROPERTIES POSITION_INDEPENDENT_CODE ON)
 

@@ -59,8 +59,7 @@ void write_file(const std::string &path, std::string_view text) {
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs) {
   std::error_code ignored;
   for (const std::string &input : inputs)
-    if (fs::equivalent(output, input, ignored) || fs::equivalent(output + ".new", input, ignored) ||
-        fs::equivalent(output + ".lock", input, ignored))
+    if (fs::equivalent(output, input, ignored) || fs::equivalent(output + ".new", input, ignored))
       throw FileError(output + ": is read by this command, expected another name for the output");
 }
 

@@ -42,7 +42,7 @@ struct ClaimedFile {
 void write_file(const std::string &path, std::string_view text);
 
 /// Refuses an output that would replace an input.
-/// \throws FileError if output, its temporary file or its lock file is one of the inputs
+/// \throws FileError if output or its temporary file is one of the inputs
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs);
 
 /// As refuse_input(), for several outputs. Empty paths are skipped.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Variables of inputs/fault.in: refusals, what a restart keeps, what headers state, and the end by PREFIX.stop."""
 import re
+import zlib
 from pathlib import Path
 
 import pytest
@@ -28,19 +29,13 @@ def with_checksum(file, lines):
     """Writes FILE.info with other lines and a valid checksum."""
     last = Path(f"{file}.info").read_text().splitlines()[-1]
     text = "".join(line + "\n" for line in lines)
-    Path(f"{file}.info").write_text(f"{text}lines = {posix_cksum(text.encode())}\n{last}\n")
+    Path(f"{file}.info").write_text(f"{text}lines = {zlib.crc32(text.encode())}\n{last}\n")
 
 
-def posix_cksum(data):
-    crc, size = 0, len(data)
-    while size:
-        data, size = data + bytes([size & 0xff]), size >> 8
-    for byte in data:
-        crc ^= byte << 24
-        for _ in range(8):
-            crc = (crc << 1) ^ (0x04C11DB7 if crc & 0x80000000 else 0)
-            crc &= 0xffffffff
-    return crc ^ 0xffffffff
+def test_a_scene_on_standard_input_needs_its_folder(lmp):
+    """Its folder is not known, so what it reads beside itself is not found."""
+    with open(INPUTS / "fault_120.in") as scene_on_input:
+        refused(lmp, "-log none", r"cannot read file fault.in; .*use 'lmp -in FILE' instead of 'lmp < FILE'", stdin=scene_on_input)
 
 
 @pytest.mark.parametrize("prefix", ["a;echo>b", "a|b", "a<b", "a>b", "(a)", "a\\b", "`a`", "a b", "$x", "a&b", "a*b", ""])

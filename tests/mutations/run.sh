@@ -105,7 +105,7 @@ run() {
     program=$work/unit_test
     ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" lsm_core >"$work/build.log" 2>&1 || return 2
     "${CXX:-c++}" -std=c++17 -O0 -I "$tree/lammps-pkg/core" -I "$tree/tests/accuracy" -o "$program" \
-      "$tree/tests/unit/$1" "$build/lib/liblsm_core.a" -lgtest -lgtest_main -pthread >"$work/build.log" 2>&1 || return 2
+      "$tree/tests/unit/$1" "$build/lib/liblsm_core.a" -lgtest -lgtest_main -lz -pthread >"$work/build.log" 2>&1 || return 2
   else
     ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" "$1" >"$work/build.log" 2>&1 || return 2
   fi

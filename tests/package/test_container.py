@@ -57,11 +57,11 @@ def test_container_runs_the_first_catalogue(work, monkeypatch):
         (work / "out").mkdir()
 
         def in_container(*command):
-            return must("buildah", "run", "-v", f"{work}/out:/work", made[-1], "--", *command)
+            return must("buildah", "run", "-v", f"{work}/out:/data", made[-1], "--", *command)
 
         said = in_container("/usr/share/lsm-fault/inputs/first-catalogue.sh", STEPS)
         assert "Open in a browser" in said and (work / "out/first-catalogue/first.catalogue.csv").exists()
-        said = in_container("python3", "-c", "import lsm, lammps; print(len(lsm.read_catalogue('/work/first-catalogue/first.catalogue.csv')))")
+        said = in_container("python3", "-c", "import lsm, lammps; print(len(lsm.read_catalogue('/data/first-catalogue/first.catalogue.csv')))")
         assert int(said) >= 100
     finally:
         subprocess.run(["buildah", "rm", *made], capture_output=True)

@@ -19,7 +19,7 @@ def compiler(work):
         pytest.skip("LSM_STYLE_DEFINITIONS, LSM_MPI_INCLUDES: how the package is compiled is not known")
     words = [f"-D{word}" for word in os.environ["LSM_STYLE_DEFINITIONS"].split("|")]
     words += [word for folder in os.environ["LSM_MPI_INCLUDES"].split("|") for word in ("-isystem", folder)]
-    for folder in "LSM", "LSM/scene", "LSM/support", "core":
+    for folder in "LSM", "LSM/scene", "LSM/speed", "LSM/support", "core":
         words += ["-I", PACKAGE / folder]
     # CMake makes these files otherwise.
     Path("lsm_styles.h").write_text("".join(f'#include "{path.name}"\n' for path in sorted((PACKAGE / "LSM").glob("*.h"))))

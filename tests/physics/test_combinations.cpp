@@ -435,6 +435,21 @@ TEST_F(Refused, NewNumbersForParticlesWhoseContactsAreKept) {
       run_text(shear_contact() + "fix move all lsm/nve\nrun 1\nreset_atoms id\n"), {"IDs"}));
 }
 
+// LAMMPS would make new room for contacts, and the old ones would be lost with a crash or in
+// silence.
+TEST_F(Refused, NewPagesOfNeighborListsForContactsThatAreKept) {
+  const std::string start = shear_contact() + "fix move all lsm/nve\n";
+  for (const char *change : {"one 4000 page 100000", "one 1000", "page 200000"}) {
+    const std::string command = std::string("neigh_modify ") + change + "\n";
+    EXPECT_TRUE(failed_with(run_text(start + "run 1\n" + command + "run 1\n"),
+                            {"lsm/friction", "neigh_modify one", "page"}))
+        << change;
+    EXPECT_TRUE(succeeded(run_text(start + command + "run 1\nrun 1\n"))) << change;
+  }
+  EXPECT_TRUE(succeeded(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                                 "fix move all lsm/nve\nrun 1\nneigh_modify page 200000\nrun 1\n")));
+}
+
 TEST_F(Refused, RecordingBehindAFixThatMovesParticlesToOtherRanks) {
   EXPECT_TRUE(
       failed_with(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +

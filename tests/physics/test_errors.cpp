@@ -184,11 +184,11 @@ TEST_F(BadInput, AnotherRunWritesTheFile) {
       const LSM::FileLock held(path(file));
       EXPECT_TRUE(failed_with(
           run_text(shear + "run 10\n", {}, ranks),
-          {file, "is being written by another run: process " + std::to_string(getpid()) + " on "}));
+          {file, "is being written by another run"}));
       EXPECT_FALSE(std::filesystem::exists(path("held.csv"))) << file;
     }
   EXPECT_TRUE(succeeded(run_text(shear + "run 10\nuncompute events\n")));
-  EXPECT_FALSE(std::filesystem::exists(path("held.csv.lock")));
+  EXPECT_FALSE(std::filesystem::exists(path("held.csv.new")));
 }
 
 // Builds new neighbour lists from time to time, in the middle of a step.

@@ -9,14 +9,15 @@ using namespace physics;
 class Onset : public Lmp {
  protected:
   /// A disc hits an equal one at rest. Returns the state after the bounce.
-  static Result bounce(const std::string &onset, double dt, double gap, int ranks = 1) {
+  static Result bounce(const std::string &onset, double dt, double gap, int ranks = 1,
+                       const std::string &skin = "0.3") {
     return run_text(R"lmp(
 units             lj
 dimension         2
 boundary          f f p
 atom_style        sphere
 atom_modify       map array
-neighbor          0.3 bin
+neighbor          ${skin} bin
 region            box block -8 8 -6 6 -0.5 0.5
 create_box        1 box
 create_atoms      1 single 0 0 0
@@ -39,6 +40,7 @@ print             "vy = $(v_vy:%.17g)"
 print             "py = $(v_py:%.17g)"
 )lmp",
                     {{"onset", onset},
+                     {"skin", skin},
                      {"dt", text(dt)},
                      {"x", text(2.0 + gap)},
                      {"steps", text(std::round(16.0 / dt))}},
@@ -71,6 +73,19 @@ TEST_F(Onset, LocatedIsSecondOrderAtTheStepFirst) {
   EXPECT_GT(order, 1.7);
   EXPECT_NEAR(order_step, 1.0, 0.3);
   EXPECT_LT(located_fine, 0.2 * step_fine);
+}
+
+// Without a skin no pair is listed before it touches.
+TEST_F(Onset, AListWithoutSkinIsWarnedOf) {
+  for (const char *skin : {"0.3", "0.0"})
+    for (const char *onset : {"located", "step"}) {
+      const Result r = bounce(onset, 0.16, 0.1, 1, skin);
+      ASSERT_TRUE(succeeded(r));
+      const bool lost = skin[2] == '0' && onset[0] == 'l';
+      EXPECT_EQ(r.lines_with("acts as 'onset step'").size(), lost ? 1u : 0u) << skin << onset;
+    }
+  EXPECT_EQ(bounce("located", 0.16, 0.1, 1, "0.0").value("vy"),
+            bounce("step", 0.16, 0.1, 1, "0.3").value("vy"));
 }
 
 TEST_F(Onset, UnknownWordIsRefused) {

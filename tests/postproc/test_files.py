@@ -91,10 +91,12 @@ def test_nothing_is_written_where_one_of_the_outputs_is_refused(postproc, files,
         output.write_text('{"a": "note"}\n')
         refused(postproc, line, f"{output}: exists already and holds something else")
         output.unlink()
-        with open(f"{output}.lock", "w") as lock:
+        # The lock of a file that does not exist yet is that of the temporary file as which it begins.
+        with open(f"{output}.new", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             refused(postproc, line, f"{output}: is being written by another run")
             refused(postproc, line + " --overwrite", f"{output}: is being written by another run")
+        Path(f"{output}.new").unlink()
 
 
 def test_pictures_belong_to_their_script(postproc, files, gnuplot):

@@ -12,6 +12,7 @@
 
 #include "files/file_error.h"
 #include "files/output_claim.h"
+#include "files/output_file.h"
 #include "unit_files.h"
 
 namespace {
@@ -106,19 +107,19 @@ TEST_F(OutputClaims, RelativeNamesAndDevices) {
 
 TEST_F(OutputClaims, NamesOfFilesOnTheirWay) {
   EXPECT_TRUE(contains(bad_outputs({{"a", path("a.csv")}, {"b", path("a.csv.new")}}), "b "));
-  EXPECT_TRUE(contains(bad_outputs({{"a", path("a.csv.lock")}}), "names that end in .lock"));
+  EXPECT_TRUE(contains(bad_outputs({{"a", path("a.csv.new")}}), "names that end in .new"));
 }
 
 TEST_F(OutputClaims, NothingIsLeftOfALock) {
+  spill(path("old.csv"), "x");
   {
     OutputClaim claim;
-    claim = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}, {"c", ""}});
-    EXPECT_TRUE(fs::exists(path("a.csv.lock")));
-    EXPECT_TRUE(fs::exists(path("b.csv.lock")));
+    claim = claim_outputs({{"a", path("a.csv")}, {"old", path("old.csv")}, {"c", ""}});
     EXPECT_FALSE(fs::exists(path("a.csv")));
-    claim.pop_front();
-    EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+    EXPECT_FALSE(fs::exists(path("old.csv.new")));
+    EXPECT_EQ(slurp(path("old.csv")), "x");
   }
+  fs::remove(path("old.csv"));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
@@ -128,48 +129,76 @@ TEST_F(OutputClaims, NothingIsHeldIfOneIsTaken) {
   const std::string message = message_of<FileError>([&] {
     second = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}});
   });
-  EXPECT_EQ(message, path("b.csv") + ": is being written by this run already; give each output a " +
-                         "name of its own");
-  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  EXPECT_EQ(message, path("b.csv") + ": is being written by another run; wait for its end");
+  EXPECT_FALSE(fs::exists(path("a.csv.new")));
   first.clear();
   second = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}});
 }
 
-TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
-  spill(path("a.csv"), "x");
+TEST_F(OutputClaims, AnotherRunIsNoticedWhicheverWayTheFileIsNamed) {
   fs::create_symlink("a.csv", path("link.csv"));
-  hold("a.csv");
-  for (const char *name : {"a.csv", "link.csv"}) {
-    const std::string message = message_of<FileError>([&] { const FileLock lock(path(name)); });
-    EXPECT_TRUE(contains(message, path(name) + ": is being written by another run: process " +
-                                      std::to_string(child_) + " on "));
-    EXPECT_EQ(message.find('\n'), std::string::npos);
+  for (const char *content : {"", "x"}) {
+    if (content[0]) spill(path("a.csv"), content);
+    hold("a.csv");
+    for (const char *name : {"a.csv", "link.csv"})
+      EXPECT_EQ(message_of<FileError>([&] { const FileLock lock(path(name)); }),
+                path(name) + ": is being written by another run; wait for its end");
+    end_child();
+    { const FileLock lock(path("a.csv")); }
+    EXPECT_FALSE(fs::exists(path("a.csv.new"))) << "left by the run that was killed";
   }
-  end_child();
-  // The process was killed: its lock file is still there, but no longer locked.
-  EXPECT_TRUE(fs::exists(path("a.csv.lock")));
+}
+
+// The lock goes over to each file that takes the name, from the first to the last.
+TEST_F(OutputClaims, FilesThatAreReplacedStayLocked) {
+  const auto taken = [this](const char *when) {
+    EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
+                         "is being written by another run"))
+        << when;
+  };
+  {
+    OutputClaim claim;
+    claim = claim_outputs({{"a", path("a.csv")}});
+    taken("before there is a file");
+    LSM::text_io::OutputFile file;
+    file.create(path("a.csv"), "one\n");
+    taken("while it is written");
+    file.close();
+    taken("after it was closed");
+    for (const char *text : {"two\n", "three\n"}) {
+      LSM::text_io::write_file(path("a.csv"), text, true);
+      EXPECT_EQ(slurp(path("a.csv")), text);
+      taken(text);
+    }
+    EXPECT_EQ(LSM::text_io::why_not_writable(path("a.csv")), "");
+    taken("after a look whether it can be written");
+  }
   { const FileLock lock(path("a.csv")); }
-  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  EXPECT_EQ(slurp(path("a.csv")), "three\n");
+}
+
+TEST_F(OutputClaims, ALookWhetherItCanBeWrittenKeepsTheLock) {
+  const FileLock lock(path("a.csv"));
+  EXPECT_EQ(LSM::text_io::why_not_writable(path("a.csv")), "");
+  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock other(path("a.csv")); }),
+                       "is being written by another run"));
 }
 
 TEST_F(OutputClaims, FileSystemsWithoutLocksAreRefused) {
-  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
-                       path("a.csv") + ": its file system has no locks (flock)"));
-  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  for (const char *content : {"", "x"}) {
+    if (content[0]) spill(path("a.csv"), content);
+    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
+                         path("a.csv") + ": its file system has no locks (flock)"));
+    EXPECT_FALSE(fs::exists(path("a.csv.new")));
+  }
 }
 
-TEST_F(OutputClaims, AFileThatIsNoLockStays) {
-  spill(path("a.csv.lock"), "my notes\n");
-  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
-                       "holds something else"));
-  EXPECT_EQ(slurp(path("a.csv.lock")), "my notes\n");
-  // Nor is a symbolic link followed to another file.
-  fs::remove(path("a.csv.lock"));
+TEST_F(OutputClaims, ATemporaryFileThatIsALinkStays) {
   spill(path("victim"), "");
-  fs::create_symlink("victim", path("a.csv.lock"));
-  EXPECT_TRUE(
-      contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }), "cannot open"));
-  EXPECT_EQ(slurp(path("victim")), "");
+  fs::create_symlink("victim", path("a.csv.new"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
+                       "its temporary file " + path("a.csv.new") + " is a symbolic link"));
+  EXPECT_TRUE(fs::exists(path("victim")));
 }
 
 TEST_F(OutputClaims, FilesThatAreOpenAlready) {
@@ -193,18 +222,18 @@ TEST_F(OutputClaims, FilesOfOthersAreComparedAndNotLocked) {
       }),
       "");
   claim = claim_outputs({{"catalogue", path("a.csv")}}, {{"emergency", path("b")}});
-  EXPECT_FALSE(fs::exists(path("b.lock")));
+  EXPECT_FALSE(fs::exists(path("b")) || fs::exists(path("b.new")));
 }
 
 TEST_F(OutputClaims, FoldersThatCannotBeWritten) {
   EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("none/a.csv")); }),
-                       path("none/a.csv") + ": cannot open for writing: its lock file "));
+                       path("none/a.csv") + ": cannot open for writing: No such file"));
 }
 
 TEST_F(OutputClaims, DevicesAreNotLocked) {
   OutputClaim claim;
   claim = claim_outputs({{"a", "/dev/null"}, {"b", "/dev/null"}});
-  EXPECT_FALSE(fs::exists("/dev/null.lock"));
+  EXPECT_FALSE(fs::exists("/dev/null.new"));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 
 #include "files/parameters.h"
 #include "files/text.h"
+#include "lsm_fixes.h"
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "lsm_script.h"
@@ -92,12 +93,12 @@ void LSMEventSources::find(bool ledger)
 
   plates_ = nullptr;
   leap_ = nullptr;
-  works_ = LSMScene::fixes<LSMWorkSource>(modify);
+  works_ = lsm_fixes<LSMWorkSource>(modify);
   for (const auto &ifix : modify->get_fix_list()) {
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
     if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
   }
-  integrators_ = LSMScene::fixes<FixLSMNVE>(modify);
+  integrators_ = lsm_fixes<FixLSMNVE>(modify);
   if (ledger)
     for (auto *p : integrators_) p->record_work = true;
 }
@@ -140,7 +141,7 @@ void LSMEventSources::release()
     if (auto p = dynamic_cast<LSMEnergySource *>(force->pair)) p->record_nothing();
   }
   if (modify)
-    for (auto *p : LSMScene::fixes<FixLSMNVE>(modify)) p->record_work = false;
+    for (auto *p : lsm_fixes<FixLSMNVE>(modify)) p->record_work = false;
 }
 
 // finds references for the slip of the fault: velocity and direction of the plates, and stiffness

@@ -6,16 +6,16 @@
 #define LMP_LSM_SCENE_H
 
 #include "fault/frequency.h"
-#include "fix.h"
-#include "modify.h"
 
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 class Atom;
+class Fix;
 class Force;
 class LAMMPS;
+class Modify;
 class PairLSMFree;
 class Update;
 
@@ -34,15 +34,6 @@ namespace LSMScene {
   /// skin between two builds of neighbor lists. Those that only act at the end of steps do not, but
   /// for one that adds to the cells of a grid.
   bool may_rely_on_skin(Modify *);
-
-  /// All fixes of a class, in the order of the input.
-  template <class Kind> std::vector<Kind *> fixes(Modify *modify)
-  {
-    std::vector<Kind *> all;
-    for (const auto &fix : modify->get_fix_list())
-      if (auto one = dynamic_cast<Kind *>(fix)) all.push_back(one);
-    return all;
-  }
 
   /// Links and contacts of this rank as springs about the present positions; also pairs that are
   /// about to touch.

@@ -10,13 +10,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using LSM::Parameter;
 
 template <class Law> static auto from(const double *values)
 {
-  return LSMLawTable::coefficients<Law>([values](std::size_t n) { return values[n]; });
+  static_assert(std::size(Law::parameters) <= LSMLawTable::MAX_PARAMETERS, "there is no room");
+  return LSM::coefficients_of<Law>([values](std::size_t n) { return values[n]; });
 }
 
 template <class Law> static LSMLaw entry()
@@ -156,10 +158,10 @@ void LSMLawTable::check(const std::vector<double> &values, const std::string &wh
 void LSMLawTable::keep(LSMRestartFile &file, int i, int j)
 {
   for (int p = 0; p < law->count; p++) {
-    double *const value = &coefficient[p][i][j];
+    double &value = coefficient[p][i][j];
     file(value);
     const int least = law->parameters[p].least;
-    if (file.reads) given[p][i][j] = least < 0 || *value > coefficient[least][i][j];
+    if (file.reads) given[p][i][j] = least < 0 || value > coefficient[least][i][j];
   }
 }
 

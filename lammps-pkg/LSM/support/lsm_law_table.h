@@ -10,9 +10,7 @@
 #include "pointers.h"
 
 #include <cstdio>
-#include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -37,17 +35,12 @@ class LSMLawTable : protected Pointers {
   static const LSMLaw *find(const std::string &name);
   static std::string names();
 
-  /// Coefficients of a law, from value(index).
-  template <class Law, class Value> static auto coefficients(const Value &value)
-  {
-    return made_of<Law>(value, std::make_index_sequence<std::size(Law::parameters)>());
-  }
-
   LSMLawTable(LAMMPS *_lmp) : Pointers(_lmp), law(&all()[0]) {}
   const LSMLaw *law;    ///< the first one of the name that was chosen
 
   void create();    ///< as many types as there are now
   const LSMTypePairs<double> &operator[](int p) const { return coefficient[p]; }
+  static constexpr int MAX_PARAMETERS = 8;
   std::vector<double> values(int i, int j) const;
   /// The coefficient of a name, except one that follows another; null if there is none.
   double **find_coefficient(const char *name);
@@ -70,21 +63,12 @@ class LSMLawTable : protected Pointers {
   void print(FILE *, int i, int j) const;
 
  private:
-  static constexpr int MAX_PARAMETERS = 8;
   LSMTypePairs<double> coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
   LSMTypePairs<int>
       given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
   std::vector<double> parsed;
   std::vector<bool> parsed_given;
 
-  template <class Law, class Value, std::size_t... n>
-  static typename Law::Coefficients made_of(const Value &value, std::index_sequence<n...>)
-  {
-    static_assert(sizeof...(n) <= MAX_PARAMETERS &&
-                      sizeof(typename Law::Coefficients) == sizeof...(n) * sizeof(double),
-                  "as many parameters as coefficients, and room for them");
-    return {value(n)...};
-  }
   bool optional(int p) const { return law->parameters[p].otherwise != LSM::Parameter::required; }
 };
 

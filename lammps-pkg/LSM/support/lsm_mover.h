@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The fixes of the package that move particles, and how far particles move from one step of a run
-// to the next
+// The fixes of the package that move particles
 
 #ifndef LMP_LSM_MOVER_H
 #define LMP_LSM_MOVER_H
 
-#include "lmptype.h"
-#include "pointers.h"
+#include "lsm_fixes.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
-class Modify;
 
 /// Base of the fixes that move particles. They may defer the second half of a step to the first
 /// half of the next, to save a pass through memory or to hide communication, so that code that
@@ -32,31 +29,13 @@ class LSMMover {
   /// step, infinity where none is known.
   virtual void add_longest_moves(std::vector<double> &of_blocks) const = 0;
 
-  static void complete_steps(Modify *);
+  static void complete_steps(Modify *modify)
+  {
+    for (auto *mover : lsm_fixes<LSMMover>(modify)) mover->complete_step();
+  }
 
  protected:
   bool pending = false;
-};
-
-/// The largest displacements of the particles of this rank in a step, reported by the fixes that
-/// move them: they have the velocities at hand, whereas comparing positions with older ones would
-/// read both from memory.
-class LSMTravel : protected Pointers {
- public:
-  LSMTravel(LAMMPS *_lmp) : Pointers(_lmp) {}
-  /// To be called once in each step, after particles have moved. Bounds of the displacements since
-  /// the last call, one for each block (see LSMMover); infinite if unknown, as something else may
-  /// have moved particles.
-  const std::vector<double> &since_last();
-
- private:
-  bool known = false;    // nothing but `movers` moves particles
-  std::vector<LSMMover *> movers;
-  std::vector<double> longest;               // of each block
-  bigint step = -1;                          // of the last call
-  bigint first_step = -1, last_step = -1;    // of its run
-
-  void look_for_movers();
 };
 
 }    // namespace LAMMPS_NS

@@ -6,18 +6,19 @@
 
 #include "comm.h"
 #include "error.h"
+#include "files/state.h"
 #include "lsm_restart_version.h"
 #include "pointers.h"
 
+#include <cstdint>
 #include <cstdio>
 #include <mpi.h>
-#include <string>
 
 namespace LAMMPS_NS {
 
 /// As in LAMMPS, only rank 0 writes, and rank 0 reads the file and sends what it reads to all
 /// ranks.
-class LSMRestartFile : protected Pointers {
+class LSMRestartFile : public LSM::StateVisitor<LSMRestartFile>, protected Pointers {
  public:
   LSMRestartFile(LAMMPS *_lmp, FILE *file, bool reading) :
       Pointers(_lmp), reads(reading), file_(file)
@@ -25,31 +26,25 @@ class LSMRestartFile : protected Pointers {
   }
   const bool reads;
 
-  template <class Value> void operator()(Value *values, int count = 1)
+  template <class Value> void one(Value &value)
   {
+    auto number = static_cast<double>(value);
     if (!reads) {
-      fwrite(values, sizeof(Value), count, file_);
+      fwrite(&number, sizeof(number), 1, file_);
       return;
     }
-    if (comm->me == 0) utils::sfread(FLERR, values, sizeof(Value), count, file_, nullptr, error);
-    MPI_Bcast(values, static_cast<int>(count * sizeof(Value)), MPI_BYTE, 0, world);
+    if (comm->me == 0) utils::sfread(FLERR, &number, sizeof(number), 1, file_, nullptr, error);
+    MPI_Bcast(&number, 1, MPI_DOUBLE, 0, world);
+    value = static_cast<Value>(number);
   }
+  void expect(std::int64_t) {}
 
   /// Writes, or reads and checks, the version with which the data of each style begin.
   void version()
   {
     int found = LSM_RESTART_VERSION;
-    (*this)(&found);
+    one(found);
     lsm_check_version(error, found);
-  }
-
-  /// Writes or reads a text, which follows its length.
-  void operator()(std::string &text)
-  {
-    int size = static_cast<int>(text.size());
-    (*this)(&size);
-    text.resize(size);
-    if (size) (*this)(text.data(), size);
   }
 
  private:

@@ -33,8 +33,14 @@ std::string LSMScript::beside(LAMMPS *lmp, FILE *script, const std::string &name
   }
   lsm_share(path, lmp->world);
   int readable = lmp->comm->me == 0 && platform::file_is_readable(path);
+  int from_input = script == stdin;
   MPI_Bcast(&readable, 1, MPI_INT, 0, lmp->world);
-  if (!readable) lmp->error->all(FLERR, "{}: cannot read file {}", who, path);
+  MPI_Bcast(&from_input, 1, MPI_INT, 0, lmp->world);
+  if (!readable)
+    lmp->error->all(FLERR, "{}: cannot read file {}{}", who, path,
+                    from_input ? "; the folder of a scene on standard input is not known, use "
+                                 "'lmp -in FILE' instead of 'lmp < FILE'"
+                               : "");
   return path;
 }
 

@@ -182,11 +182,8 @@ class RecordWriter : public text_io::ResumableFile {
   /// \throws FileError
   /// \throws std::invalid_argument for a header that could not be read back
   void begin(const std::string &path, const Info &info) {
-    std::string bytes(Info::magic);
-    const std::string lines = text_io::lines_of(checked(info));
-    append_bytes(bytes, static_cast<std::int64_t>(lines.size()));
-    file_.create(path, bytes + lines);
-    info_ = info;
+    take(info);
+    file_.create(path, header_);
   }
 
   /// Checks that the header is what begin() would write, except for what may change.
@@ -194,12 +191,19 @@ class RecordWriter : public text_io::ResumableFile {
   void compare(const std::string &path, const Info &found, const Info &info) {
     const std::string problem = text_io::difference(found.header(), checked(info));
     if (!problem.empty()) refuse(path, problem);
-    info_ = info;
+    take(info);
   }
 
   Info info_;
 
  private:
+  void take(const Info &info) {
+    const std::string lines = text_io::lines_of(checked(info));
+    header_ = Info::magic;
+    append_bytes(header_, static_cast<std::int64_t>(lines.size()));
+    header_ += lines;
+    info_ = info;
+  }
   static text_io::Parameters checked(const Info &info) {
     const std::string problem = info.problem();
     if (!problem.empty())

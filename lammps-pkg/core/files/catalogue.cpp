@@ -273,11 +273,8 @@ void CatalogueReader::report_row(const CatalogueColumn &column, std::string_view
 
 void CatalogueWriter::create(const std::string &path, const CatalogueInfo &info, bool whole) {
   check_info(info);
-  file_.create(
-      path,
-      std::string(first_line) + "\n" + text_io::lines_of(info.header()) + column_line(info) + "\n",
-      whole);
   start(info);
+  file_.create(path, header_, whole);
 }
 
 void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &info,
@@ -293,7 +290,7 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
     refuse(path,
            "columns are '" + reader.column_line_ + "' in the file, expected '" + columns + "'");
 
-  std::int64_t length = reader.reader_.end();
+  std::int64_t length = old_header_ = reader.reader_.end();
   start(info);
   // Events are in order of their ends, so the first one to drop is where the file is cut.
   Event event;
@@ -331,6 +328,8 @@ void CatalogueWriter::write(const Event &event) {
 }
 
 void CatalogueWriter::start(const CatalogueInfo &info) {
+  header_ =
+      std::string(first_line) + "\n" + text_io::lines_of(info.header()) + column_line(info) + "\n";
   columns_ = columns_of(info);
   overlapping_ = info.overlapping();
   rows_ = 0;

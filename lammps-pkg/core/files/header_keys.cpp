@@ -70,7 +70,7 @@ const std::vector<HeaderKey> &header_keys() {
       {"dynamic_friction",   model,     number},
       {"slip_distance",      model,     number},
       {"scheme",             model,     text},
-      {"steps",              model,     whole},
+      {"steps",              model,     whole,  0, 0, nullptr, true},
       {"leap_calm",          model,     number},
       // of events
       {"events",             recording, text},

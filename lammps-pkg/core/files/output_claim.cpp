@@ -3,20 +3,16 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <array>
+#include <algorithm>
 #include <cerrno>
-#include <chrono>
-#include <climits>
-#include <cstddef>
-#include <ctime>
+#include <cstdio>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
-#include <thread>
 #include <unordered_map>
+#include <utility>
 
 #include "files/file_error.h"
-#include "files/parameters.h"
+#include "files/output_file.h"
 #include "files/text.h"
 
 namespace LSM {
@@ -37,40 +33,6 @@ fs::path target_of(const std::string &path) {
   }
   const fs::path folder = fs::weakly_canonical(fs::absolute(at, code).parent_path(), code);
   return folder / at.filename();
-}
-
-LockHolder this_process() {
-  LockHolder me;
-  std::array<char, HOST_NAME_MAX + 1> name{};
-  gethostname(name.data(), name.size() - 1);
-  me.host = name.data();
-  me.process = getpid();
-  std::array<char, 32> now{};
-  const std::time_t seconds = std::time(nullptr);
-  std::tm parts{};
-  std::strftime(now.data(), now.size(), "%Y-%m-%d %H:%M:%S", localtime_r(&seconds, &parts));
-  me.started = now.data();
-  return me;
-}
-
-constexpr std::string_view magic = "# lsm-lock 1\n";
-
-std::string to_text(const LockHolder &holder) {
-  return std::string(magic) + text_io::lines_of({{"host", holder.host},
-                                                 {"process", std::to_string(holder.process)},
-                                                 {"started", holder.started}});
-}
-
-/// Returns false if the text was not made by to_text().
-bool from_text(const std::string &text, LockHolder &holder) {
-  if (text.compare(0, magic.size(), magic) != 0) return false;
-  text_io::ParameterList all;
-  all.add_lines(std::string_view(text).substr(magic.size()));
-  const auto read = [&all](const char *key, auto &value) { text_io::take(all.all(), key, value); };
-  read("host", holder.host);
-  read("started", holder.started);
-  read("process", holder.process);
-  return holder.process > 0;
 }
 
 /// Whether a path leads to the file of an open descriptor.
@@ -107,9 +69,9 @@ std::string bad_outputs(const std::vector<Output> &outputs) {
   for (const Output &one : outputs) {
     if (one.path.empty()) continue;
     const std::string extension = std::filesystem::path(one.path).extension().string();
-    if (extension == ".lock" || extension == ".new")
-      return one.what + " " + one.path + ": names that end in " + extension +
-             " are reserved for temporary files; give another one";
+    if (extension == ".new")
+      return one.what + " " + one.path +
+             ": names that end in .new are reserved for temporary files; give another one";
     const std::string identity = file_identity(one.path);
     if (identity.empty()) continue;
     const auto [same, added] = before.emplace(identity, &one);
@@ -120,90 +82,77 @@ std::string bad_outputs(const std::vector<Output> &outputs) {
   return {};
 }
 
+FileLock::FileLock(const std::string &path, Flock flock) : name_(target_of(path).string()) {
+  const std::string draft = name_ + ".new";
+  const auto fail = [&path](const char *what) {
+    throw FileError(path + ": " + what + ": " + std::generic_category().message(errno));
+  };
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
+    std::string locked = name_;
+    descriptor_ = open(locked.c_str(), flags);
+    if (descriptor_ < 0 && errno == ENOENT) {
+      locked = draft;
+      descriptor_ = open(locked.c_str(), flags | O_CREAT, 0666);
+    }
+    if (descriptor_ < 0) throw FileError(text_io::why_not_opened(path, locked, errno));
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      if (reason != EWOULDBLOCK) remove_draft();
+      close(descriptor_);
+      if (reason == EWOULDBLOCK)
+        throw FileError(path + ": is being written by another run; wait for its end");
+      errno = reason;
+      fail("its file system has no locks (flock); write to another one: cannot lock");
+    }
+    // Whoever held the lock may have renamed or removed the file in between.
+    if (leads_to(locked, descriptor_) && (locked == name_ || access(name_.c_str(), F_OK) != 0)) {
+      const std::lock_guard<std::mutex> guard(held().mutex);
+      held().locks.push_back(this);
+      return;
+    }
+    close(descriptor_);
+  }
+  errno = EAGAIN;
+  fail("cannot lock");
+}
+
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  if (is_there()) unlink(lock_.c_str());
+  {
+    const std::lock_guard<std::mutex> guard(held().mutex);
+    held().locks.remove(this);
+  }
+  remove_draft();
   close(descriptor_);
 }
 
-FileLock::FileLock(const std::string &path, Flock flock)
-    : path_(path), lock_(target_of(path).string() + ".lock") {
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    bool ours = true;  // the file was not there
-    descriptor_ = open_lock(O_CREAT | O_EXCL);
-    if (descriptor_ < 0 && errno == EEXIST) {
-      ours = false;
-      descriptor_ = open_lock(0);
-      if (descriptor_ < 0 && errno == ENOENT) continue;  // removed in between
-    }
-    if (descriptor_ < 0) fail("cannot open for writing", errno);
-    const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-    const int reason = errno;
-    if (!locked && reason == EWOULDBLOCK) refuse(holder());
-    if (!locked) {
-      if (ours) unlink(lock_.c_str());
-      fail("its file system has no locks (flock); write to another one: cannot lock", reason);
-    }
-    // Its owner may have removed it in between. A file of that name that is not a lock belongs to
-    // somebody else and must be left alone, which holder() does.
-    if (is_there()) {
-      if (!ours) holder();
-      sign();
-      return;
-    }
-    drop();
-  }
-  fail("cannot lock", EAGAIN);
+void FileLock::remove_draft() const {
+  const std::string draft = name_ + ".new";
+  struct stat now {};
+  if (fstat(descriptor_, &now) == 0 && now.st_size == 0 && leads_to(draft, descriptor_))
+    unlink(draft.c_str());
 }
 
-int FileLock::open_lock(int flags) const {
-  return open(lock_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
+FileLock::Held &FileLock::held() {
+  static Held all;
+  return all;
 }
 
-void FileLock::stop(const std::string &message) {
-  if (descriptor_ >= 0) drop();
-  throw FileError(path_ + ": " + message);
-}
-
-void FileLock::fail(const std::string &what, int reason) {
-  stop(what + ": its lock file " + lock_ + ": " + std::generic_category().message(reason));
-}
-
-void FileLock::drop() { close(std::exchange(descriptor_, -1)); }
-
-bool FileLock::is_there() const { return leads_to(lock_, descriptor_); }
-
-std::optional<LockHolder> FileLock::holder() {
-  std::array<char, 1024> text{};
-  ssize_t length = 0;
-  for (int attempt = 0; attempt <= 20; ++attempt) {
-    if (attempt > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    length = pread(descriptor_, text.data(), text.size(), 0);
-    if (length != 0) break;
-  }
-  if (length <= 0) return {};
-  LockHolder found;
-  if (from_text({text.data(), static_cast<std::size_t>(length)}, found)) return found;
-  stop("its lock file " + lock_ + " holds something else; move it away");
-}
-
-void FileLock::sign() {
-  const std::string text = to_text(this_process());
-  if (ftruncate(descriptor_, 0) == 0 &&
-      pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
-    return;
+bool FileLock::rename(const std::string &from, const std::string &to) {
+  const std::lock_guard<std::mutex> guard(held().mutex);
+  const std::string name = target_of(to).string();
+  const auto lock = std::find_if(held().locks.begin(), held().locks.end(),
+                                 [&name](const FileLock *one) { return one->name_ == name; });
+  const bool moves = lock != held().locks.end() && !leads_to(from, (*lock)->descriptor_);
+  const int next = moves ? open(from.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW) : -1;
+  const bool done = (!moves || (next >= 0 && ::flock(next, LOCK_EX) == 0)) &&
+                    std::rename(from.c_str(), to.c_str()) == 0;
   const int reason = errno;
-  unlink(lock_.c_str());
-  fail("cannot write", reason);
-}
-
-void FileLock::refuse(const std::optional<LockHolder> &by) {
-  if (by && by->process == getpid() && by->host == this_process().host)
-    stop("is being written by this run already; give each output a name of its own");
-  const std::string who =
-      by ? ": process " + std::to_string(by->process) + " on " + by->host + " since " + by->started
-         : "";
-  stop("is being written by another run" + who + "; wait for its end");
+  const int old = done && moves ? std::exchange((*lock)->descriptor_, next) : next;
+  if (old >= 0) close(old);
+  errno = reason;
+  return done;
 }
 
 OutputClaim claim_outputs(const std::vector<Output> &outputs, const std::vector<Output> &others) {

@@ -3,20 +3,17 @@
 /// Checks and locks for the files that a run is about to write: no two outputs may lead to the same
 /// file, under any names, and no other run may write them at the same time.
 ///
-/// A run holds FILE.lock for as long as it writes FILE: locked by flock, so that a killed run
-/// releases it, and with host and process for the message of the next run. File systems without
-/// flock are refused.
+/// A run holds a lock (flock) on each of its files for as long as it writes them, which ends with
+/// the process even if that is killed. File systems without flock are refused.
 #ifndef LSM_OUTPUT_CLAIM_H
 #define LSM_OUTPUT_CLAIM_H
 
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <list>
-#include <optional>
+#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace LSM {
@@ -25,12 +22,6 @@ namespace LSM {
 struct Output {
   std::string what;
   std::string path;
-};
-
-/// The process that holds a lock, as its file says.
-struct LockHolder {
-  std::string host, started;
-  std::int64_t process = 0;
 };
 
 /// Returns the same text for all paths that lead to one file, such as "./a", "a" and links to it,
@@ -45,7 +36,8 @@ bool is_open_for_writing(const std::string &path);
 /// Returns what is wrong with the names of a run's outputs, or "". Empty paths are skipped.
 std::string bad_outputs(const std::vector<Output> &outputs);
 
-/// Holds the lock of one file, or of none.
+/// Holds the lock of one file, or of none. As long as the file does not exist, this is the lock of
+/// FILE.new, as which it begins (see OutputFile).
 class FileLock {
  public:
   using Flock = int (*)(int, int);
@@ -55,29 +47,26 @@ class FileLock {
   FileLock &operator=(const FileLock &) = delete;
   ~FileLock();
 
-  /// \throws FileError if another run holds it, which it names, or if the lock cannot be written.
-  /// Tests pass a substitute for the system's flock.
+  /// \throws FileError if another run holds it, or if the file cannot be written or locked. Tests
+  /// pass a substitute for the system's flock.
   explicit FileLock(const std::string &path, Flock flock = ::flock);
+
+  /// Renames a file. If this process holds the lock of the file that is replaced, it holds that of
+  /// the new one from then on, without a gap. Returns false and sets errno on failure.
+  static bool rename(const std::string &from, const std::string &to);
 
  private:
   static constexpr int most_attempts = 100;
+  struct Held {
+    std::mutex mutex;
+    std::list<FileLock *> locks;
+  };
+  static Held &held();  // by this process
 
-  int open_lock(int flags) const;
-  void drop();
-  [[noreturn]] void stop(const std::string &message);
-  [[noreturn]] void fail(const std::string &what, int reason);
-
-  /// Whether the name still leads to the open file.
-  bool is_there() const;
-
-  /// Reads who holds the lock. A process that has just created the file is given time to sign it.
-  std::optional<LockHolder> holder();
-
-  void sign();
-  [[noreturn]] void refuse(const std::optional<LockHolder> &by);
+  void remove_draft() const;
 
   int descriptor_ = -1;
-  std::string path_, lock_;
+  std::string name_;  // with links resolved
 };
 
 /// Locks of the outputs of a run, from before the first is written until the last is closed.

@@ -2,10 +2,13 @@
 #include "files/output_file.h"
 
 #include <fcntl.h>
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "files/file_error.h"
+#include "files/input_bytes.h"
+#include "files/output_claim.h"
 
 namespace LSM::text_io {
 
@@ -20,15 +23,14 @@ std::FILE *open_for_writing(const std::string &path, bool anew, bool follow = tr
   return file < 0 ? nullptr : fdopen(file, anew ? "wb" : "ab");
 }
 
-/// Describes why open_for_writing() failed.
+}  // namespace
+
 std::string why_not_opened(const std::string &path, const std::string &opened, int reason) {
   if (reason == ELOOP && opened != path)
     return path + ": cannot write: its temporary file " + opened +
            " is a symbolic link; move it away";
   return path + ": cannot open for writing: " + std::generic_category().message(reason);
 }
-
-}  // namespace
 
 bool holds_data(const std::string &path) {
   std::error_code code;
@@ -45,11 +47,12 @@ std::string why_not_writable(const std::string &path) {
   if (there && !std::filesystem::is_regular_file(path, code)) return {};
   // A file that exists is written in place, or replaced by a new one beside it.
   for (const std::string &tried : {path, path + ".new"}) {
-    if (tried == path && !there) continue;
+    const bool was_there = std::filesystem::exists(tried, code);
+    if (tried == path && !was_there) continue;
     std::FILE *const file = open_for_writing(tried, false, tried == path);
     if (!file) return why_not_opened(path, tried, errno);
     std::fclose(file);
-    if (tried != path) std::filesystem::remove(tried, code);
+    if (!was_there) std::filesystem::remove(tried, code);
   }
   return {};
 }
@@ -95,6 +98,27 @@ void OutputFile::append() {
   if (code) give_up("cannot truncate", code);
 }
 
+void OutputFile::append(std::string_view header, std::int64_t old) {
+  FileBytes in(name_);
+  std::string block(1 << 20, '\0');
+  const auto next = [&](std::uintmax_t most) {
+    const std::size_t got = in.read(block.data(), std::min<std::uintmax_t>(most, block.size()));
+    return std::string_view(block).substr(0, got);
+  };
+  const auto length = static_cast<std::uintmax_t>(old);
+  if (next(length) == header) return append();
+  const std::uintmax_t kept = kept_;
+  create(name_, header, true);
+  for (std::uintmax_t done = length; done < kept;) {
+    const std::string_view part = next(kept - done);
+    if (part.empty()) give_up("cannot read");
+    write(part);
+    done += part.size();
+  }
+  sync();
+  take_name();
+}
+
 void OutputFile::write(std::string_view text) {
   if (!file_) throw FileError("output file is not open");
   errno = 0;
@@ -115,7 +139,7 @@ void OutputFile::close() {
 
 void OutputFile::take_name() {
   if (written_ == name_) return;
-  if (std::rename(written_.c_str(), name_.c_str()) != 0) give_up("cannot create");
+  if (!FileLock::rename(written_, name_)) give_up("cannot create");
   written_ = name_;
 }
 

@@ -21,6 +21,9 @@ bool holds_data(const std::string &path);
 /// behind.
 std::string why_not_writable(const std::string &path);
 
+/// Describes why `opened`, which is path or a temporary file beside it, could not be opened.
+std::string why_not_opened(const std::string &path, const std::string &opened, int reason);
+
 /// Writes all data of a file, or all names of a folder, to the disk.
 /// \throws FileError
 void sync(const std::string &path);
@@ -45,6 +48,10 @@ class OutputFile {
 
   /// Truncates the file selected by keep() and continues behind the bytes that are kept.
   void append();
+
+  /// As append(), with another header in place of the first `old` bytes. If they differ, a new file
+  /// replaces the old one once it is complete.
+  void append(std::string_view header, std::int64_t old);
 
   /// On failure the file is closed, as lines after a half-written one would not be readable.
   void write(std::string_view text);
@@ -77,6 +84,10 @@ class ResumableFile {
   /// Truncates the file where find_cut() found that the new run begins.
   /// \throws FileError
   void cut() { file_.append(); }
+  /// As cut(); parameters in which the header differs from that of the new run, which find_cut()
+  /// was told to ignore, get their new values.
+  /// \throws FileError
+  void cut_with_new_header() { file_.append(header_, old_header_); }
   /// Closes the file. The destructor does this, too, but ignores errors.
   /// \throws FileError if the system reports a late failure
   void close() { file_.close(); }
@@ -86,6 +97,8 @@ class ResumableFile {
   [[noreturn]] static void refuse(const std::string &path, const std::string &why);
 
   OutputFile file_;
+  std::string header_;           // of the new run
+  std::int64_t old_header_ = 0;  // length of the header in the file
 };
 
 /// Replaces path by a file with the text, or leaves it unchanged.

@@ -78,7 +78,7 @@ void PeSeriesWriter::find_cut(const std::string &path, const PeSeriesInfo &info,
   PeSeriesReader reader(text_io::open_plain(path), true);
   compare(path, reader.info(), info);
   start();
-  std::int64_t step = 0, length = reader.end();
+  std::int64_t step = 0, length = old_header_ = reader.end();
   double time = 0.0, pe = 0.0;
   // Steps increase, so the first one to drop is where the file is cut.
   while (reader.next(step, time, pe) && step <= last_step) {

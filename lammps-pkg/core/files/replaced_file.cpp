@@ -22,7 +22,7 @@ std::string content_of(std::string_view head) {
       {"lsm-pe-series-"sv, "a PE series"},
       {"lsm-slip-hist-"sv, "a slip history"},
       {"LammpS RestartT"sv, "a restart file"},
-      {"\xa3\x65\x63rc32"sv, "a checkpoint"}};
+      {"slider_cli checkpoint "sv, "a checkpoint"}};
   const std::string_view program = text_io::compressed_by(head);
   if (!program.empty()) return "what " + std::string(program) + " has compressed";
   for (const auto &[mark, kind] : kinds)

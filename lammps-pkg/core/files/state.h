@@ -19,9 +19,8 @@
 
 namespace LSM {
 
-namespace state_detail {
-
-/// Common part of writing and reading. Derived has one(number) and raw_words(pointer, words).
+/// Common part of writing and reading. Derived has one(number); expect(numbers), which checks that
+/// as many can be read; and raw_words(pointer, words).
 template <class Derived>
 class StateVisitor {
  public:
@@ -69,10 +68,8 @@ class StateVisitor {
   }
 };
 
-}  // namespace state_detail
-
 /// Appends the state to a vector.
-class StateWriter : public state_detail::StateVisitor<StateWriter> {
+class StateWriter : public StateVisitor<StateWriter> {
  public:
   explicit StateWriter(std::vector<double> &to) : to_(to) {}
 
@@ -92,7 +89,7 @@ class StateWriter : public state_detail::StateVisitor<StateWriter> {
 
 /// Reads the state from numbers.
 /// \throws std::invalid_argument if numbers are missing
-class StateReader : public state_detail::StateVisitor<StateReader> {
+class StateReader : public StateVisitor<StateReader> {
  public:
   explicit StateReader(const std::vector<double> &from, std::size_t at = 0)
       : from_(from.data() + at), left_(from.size() - at) {}

@@ -9,6 +9,9 @@
 #define LSM_FRICTION_LAW_H
 
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
 
 namespace LSM {
 
@@ -62,6 +65,22 @@ struct FrictionLaw {
     return true;
   }
 };
+
+namespace friction_detail {
+template <class Law, class Value, std::size_t... n>
+typename Law::Coefficients coefficients_of(const Value &value, std::index_sequence<n...>) {
+  static_assert(sizeof(typename Law::Coefficients) == sizeof...(n) * sizeof(double),
+                "as many parameters as coefficients");
+  return {value(n)...};
+}
+}  // namespace friction_detail
+
+/// Coefficients of a law, of which value(n) is the n-th.
+template <class Law, class Value>
+typename Law::Coefficients coefficients_of(const Value &value) {
+  return friction_detail::coefficients_of<Law>(
+      value, std::make_index_sequence<std::size(Law::parameters)>());
+}
 
 /// Elongation of a contact that sticks while the force of the spring is at most `strength`, and
 /// otherwise slides at the force `dynamic`.

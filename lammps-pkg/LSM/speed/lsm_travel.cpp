@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-#include "lsm_mover.h"
+#include "lsm_travel.h"
 
 #include "atom.h"
 #include "domain.h"
+#include "lsm_fixes.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -13,14 +14,9 @@
 
 using namespace LAMMPS_NS;
 
-void LSMMover::complete_steps(Modify *modify)
-{
-  for (auto *p : LSMScene::fixes<LSMMover>(modify)) p->complete_step();
-}
-
 void LSMTravel::look_for_movers()
 {
-  movers = LSMScene::fixes<LSMMover>(modify);
+  movers = lsm_fixes<LSMMover>(modify);
   known = update->whichflag == 1 && LSMScene::has_only_ours(modify);
 }
 

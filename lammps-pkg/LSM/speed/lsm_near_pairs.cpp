@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_near_pairs.h"
+
+#include "atom.h"
+#include "force.h"
+#include "friction/friction_contact.h"
+#include "friction/force_laws.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+using namespace LAMMPS_NS;
+using namespace LSM::friction_contact;
+
+// A wider SKIN keeps more pairs (0.19 a particle with 0.05, 0.29 with 0.1), a narrower one has them
+// looked for more often (every 230 and 490 steps on the fault of length 120).
+static constexpr double FEW =
+    0.5;    // up to this number of listed pairs per particle, all of them are kept
+// Displacement of a particle that may be a stray, and how many of them there may be.
+static constexpr double STRAY = LSMNearPairs::SKIN / 3.0;
+static constexpr int MIN_STRAYS = 8, PARTICLES_PER_STRAY = 128;
+
+void LSMNearPairs::init(const LSMTypePairs<int> &active_types, bool screens,
+                        const LSMEnergySource &source)
+{
+  forget();    // the list may have changed, and its builds are counted anew
+  patch.stop();
+  active = &active_types;
+  screened = screens;
+  sides = &source;
+  written = true;    // the states were written at the end of the previous run
+}
+
+void LSMNearPairs::keep_states(LSMContactStore &where, int size, double reach)
+{
+  store = &where;
+  stored_size = size;
+  state_reach = reach;
+}
+
+void LSMNearPairs::update(NeighList &of, const double *radii)
+{
+  list = &of;
+  radius = radii;
+  if (lmp_->update->setupflag) forget();    // the number of a build may have been used before
+  const double *const x = lmp_->atom->x[0];
+  const Due what = due(x);
+  const bool anew = what == Due::new_list || what == Due::choice;
+
+  if (what == Due::new_list) {
+    screened ? patch.stop() : patch.start(of, *active);
+  } else {
+    // Strays are not looked for if so few pairs are listed that all of them are kept.
+    const auto &added = what == Due::choice ? patch.look_at_all(0)
+        : held.empty()                      ? patch.look_at_all(lmp_->atom->nlocal)
+                                            : patch.look_at(strays);
+    for (const LSMListPatch::Added &pair : added) {
+      if (store) store->add_pair(pair.i, pair.jj);
+      listed.push_back({pair.i, pair.jj, pair.j});
+      is_kept.push_back(0);
+      keep(static_cast<int>(listed.size()) - 1, false);
+    }
+  }
+  if (anew) {
+    write_states();
+    choose(x);
+  } else if (what == Due::strays)
+    keep_pairs_of_strays();
+  find(x);
+  read_states();
+}
+
+// the largest distance of the particles in [first, last) from the positions that are held
+double LSMNearPairs::displacement(const double *x, size_t first, size_t last) const
+{
+  double most = 0.0;    // square
+  for (size_t n = 3 * first; n < 3 * last; n += 3) {
+    const double dx = x[n] - held[n], dy = x[n + 1] - held[n + 1], dz = x[n + 2] - held[n + 2];
+    most = std::max(most, dx * dx + dy * dy + dz * dz);
+  }
+  return sqrt(most);
+}
+
+void LSMNearPairs::hold_strays(const double *x)
+{
+  for (const size_t i : strays) std::copy_n(x + 3 * i, 3, &held[3 * i]);
+}
+
+// Adds the particles in [first, last) that have moved far to the strays, unless they are many.
+bool LSMNearPairs::find_strays(const double *x, size_t first, size_t last)
+{
+  const size_t most = MIN_STRAYS + held.size() / 3 / PARTICLES_PER_STRAY;
+  for (size_t i = first; i < last; i++)
+    if (displacement(x, i, i + 1) > STRAY) {
+      if (strays.size() == most) return false;
+      strays.push_back(static_cast<int>(i));
+    }
+  hold_strays(x);
+  return true;
+}
+
+// A pair that is not kept may have come near if the particles have moved by the skin against each
+// other. At least one particle of a pair is owned by this rank. Positions of the owned particles of
+// a block are compared only when the sum of their largest moves is too large; those of ghosts,
+// which are few and are moved by other ranks, in each step.
+LSMNearPairs::Due LSMNearPairs::due(const double *x)
+{
+  const std::vector<double> &moves = travel.since_last();
+  const int nlocal = lmp_->atom->nlocal, all = nlocal + lmp_->atom->nghost;
+  if (lmp_->neighbor->ncalls != built) {
+    built = lmp_->neighbor->ncalls;
+    listed.clear();
+    for (int ii = 0; ii < list->inum; ii++) {
+      const int i = list->ilist[ii];
+      for (int jj = 0; jj < list->numneigh[i]; jj++)
+        listed.push_back({i, jj, list->firstneigh[i][jj] & NEIGHMASK});
+    }
+    moved.resize(moves.size());
+    held.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(all) : 0);
+    first_of.clear();
+    return Due::new_list;
+  }
+  if (held.empty()) return Due::nothing;
+  hold_strays(x);
+  double ghosts = displacement(x, nlocal, all);
+  const auto too_far = [&ghosts](double move) {
+    return !(move + std::max(move, ghosts) < SKIN * (1.0 - ROUNDING));
+  };
+  const size_t strays_before = strays.size();
+  if (ghosts > 0.5 * SKIN) {
+    if (!find_strays(x, nlocal, all)) return Due::choice;
+    ghosts = displacement(x, nlocal, all);
+  }
+  for (size_t b = 0; b < moved.size(); b++) {
+    moved[b] += moves[b];
+    if (!too_far(moved[b])) continue;
+    const size_t first = b * LSMMover::BLOCK,
+                 last = std::min(first + LSMMover::BLOCK, static_cast<size_t>(nlocal));
+    moved[b] = displacement(x, first, last);
+    if (!too_far(moved[b])) continue;
+    if (!find_strays(x, first, last)) return Due::choice;
+    moved[b] = displacement(x, first, last);
+  }
+  return strays.size() > strays_before ? Due::strays : Due::nothing;
+}
+
+void LSMNearPairs::index_listed()
+{
+  first_of.assign(held.size() / 3 + 1, 0);
+  for (const Listed &pair : listed) {
+    first_of[pair.i + 1]++;
+    first_of[pair.j + 1]++;
+  }
+  std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
+  pairs_of.resize(2 * listed.size());
+  std::vector<int> next = first_of;
+  for (int n = 0; n < static_cast<int>(listed.size()); n++) {
+    pairs_of[next[listed[n].i]++] = n;
+    pairs_of[next[listed[n].j]++] = n;
+  }
+}
+
+void LSMNearPairs::keep(int n, bool touching)
+{
+  const auto &[i, jj, j] = listed[n];
+  const int *const type = lmp_->atom->type;
+  is_kept[n] = 1;
+  LSMContacts::add({i, j, jj, active->place(type[i], type[j]), side_of(i, j), radius[i] + radius[j],
+                    LSM::contact_size(radius[i], radius[j])},
+                   touching);
+}
+
+int LSMNearPairs::side_of(int i, int j) const
+{
+  return sides->across_fault(lmp_->atom->mask[i], lmp_->atom->mask[j]);
+}
+
+void LSMNearPairs::find_sides()
+{
+  for (Pair &pair : pairs) pair.across = side_of(pair.i, pair.j);
+}
+
+void LSMNearPairs::keep_pairs_of_strays()
+{
+  if (first_of.empty()) index_listed();
+  for (; admitted < strays.size(); admitted++) {
+    const int i = strays[admitted];
+    for (int n = first_of[i]; n < first_of[i + 1]; n++)
+      if (!is_kept[pairs_of[n]]) keep(pairs_of[n], false);
+    for (size_t n = pairs_of.size() / 2; n < listed.size(); n++)    // added since
+      if (!is_kept[n] && (listed[n].i == i || listed[n].j == i))
+        keep(static_cast<int>(n), false);
+  }
+}
+
+// Whether a pair is near is unpredictable for the processor, so the loop has no branches.
+void LSMNearPairs::choose(const double *x)
+{
+  std::copy_n(x, held.size(), held.begin());
+  std::fill(moved.begin(), moved.end(), 0.0);
+  strays.clear();
+  admitted = 0;
+  is_kept.assign(listed.size(), 0);
+  chosen.resize(listed.size());
+  const bool all = held.empty();
+  const double reach = std::max(state_reach, 1.0);
+  int most = 0;
+  for (int n = 0; n < static_cast<int>(listed.size()); n++) {
+    const Listed &pair = listed[n];
+    const double *const a = x + 3 * static_cast<size_t>(pair.i);
+    const double *const b = x + 3 * static_cast<size_t>(pair.j);
+    const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+    const double far = reach * (radius[pair.i] + radius[pair.j]) + SKIN;
+    const bool touching = store && *store->touch_of(pair.i, pair.jj);
+    chosen[most] = n;    // overwritten by the next one unless the number advances
+    most += all | touching | !(dx * dx + dy * dy + dz * dz > far * far);
+  }
+
+  begin(stored_size);
+  known_states = 0;
+  for (int m = 0; m < most; m++) {
+    const Listed &pair = listed[chosen[m]];
+    keep(chosen[m], store && *store->touch_of(pair.i, pair.jj));
+  }
+}
+
+// A pair with a state that does not touch is found by its distance from now on.
+void LSMNearPairs::read_states()
+{
+  if (!store) return;
+  states_build = built;
+  for (; known_states < count(); known_states++) {
+    const Pair &pair = pairs[known_states];
+    double *const h = state(known_states);
+    std::copy_n(store->values_of(pair.i, pair.jj), state_size, h);
+    if (h[STATUS] == NEAR) set_touching(known_states, false);
+  }
+}
+
+// Pairs that do not touch have no state: whether one is near follows from its vector alone.
+void LSMNearPairs::write_states()
+{
+  if (written || states_build != lmp_->neighbor->ncalls) return;
+  written = true;
+  for (int place = 0; place < known_states; place++) {
+    const Pair &pair = pairs[place];
+    double *const h = state(place);
+    bool touch = is_touching(place);
+    if (!touch) {
+      const double *const d = vector(place);
+      const bool is_near =
+          d[0] * d[0] + d[1] * d[1] <= state_reach * state_reach * pair.r0 * pair.r0 &&
+          !(screened && is_left_out(place));
+      keep_near(is_near, d[0], d[1], touch, h);
+    }
+    std::copy_n(h, state_size, store->values_of(pair.i, pair.jj));
+    *store->touch_of(pair.i, pair.jj) = touch;
+  }
+}
+
+bool LSMNearPairs::is_left_out(int place) const
+{
+  const Pair &pair = pairs[place];
+  const int *const type = lmp_->atom->type;
+  const int entry = list->firstneigh[pair.i][pair.jj];
+  return !(*active)[type[pair.i]][type[pair.j]] ||
+      lmp_->force->special_lj[entry >> SBBITS & 3] == 0.0;
+}
