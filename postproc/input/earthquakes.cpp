@@ -119,7 +119,6 @@ bool is_no_earthquake(std::string_view type) {
 enum Field {
   time,
   date,
-  clock,
   year,
   month,
   day,
@@ -143,26 +142,25 @@ struct Record {
 };
 
 /// The names of each field, in its order, as columns and as properties in GeoJSON: in small
-/// letters, without blanks and signs. The first one that a file has counts.
+/// letters, without blanks, signs and units. The first one that a file has counts.
 constexpr std::array<std::string_view, number_of_fields> known_names = {
     "time datetime timeutc utctime datetimeutc origintime origintimeutc timestring timestamp eventtime",
     "date origindate eventdate",
-    "timehhmmssmmutc timehhmmssssutc",
     "year yr",
     "month mon mo",
-    "day dy",
-    "hour hr",
+    "day dy da",
+    "hour hr ho",
     "minute min mi",
-    "second seconds sec",
+    "second seconds sec se",
     "latitude lat",
     "longitude lon long lng",
-    "mag magnitude",
+    "mag magnitude mw",
     "eventtype evtype etype type"};
 
 /// A name as in `known_names`.
 std::string plain(std::string_view name) {
   std::string out;
-  for (const char c : in_small_letters(name))
+  for (const char c : in_small_letters(name.substr(0, name.find_first_of("(/["))))
     if (is_digit(c) || (c >= 'a' && c <= 'z')) out += c;
   return out;
 }
@@ -194,7 +192,7 @@ std::optional<double> time_in_parts(const Record &record) {
   }
   if (!(v[0] >= 100.0 && v[0] < 1e4)) return {};
   const auto whole = [&v](std::size_t i) { return static_cast<int>(v[i]); };
-  const std::string of_day = iso_clock(record[clock].empty() ? record[time] : record[clock]);
+  const std::string of_day = iso_clock(record[time]);
   if (of_day.empty()) return days(whole(0), whole(1), whole(2), whole(3), whole(4), v[5]);
   return parse_date(fmt::format("{:04}-{:02}-{:02} {}", whole(0), whole(1), whole(2), of_day));
 }

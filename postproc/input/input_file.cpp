@@ -14,6 +14,7 @@
 
 namespace LSM::postproc {
 
+// zlib and liblzma themselves, as libarchive does not verify the checksum of gzip.
 namespace {
 
 using text_io::Bytes;

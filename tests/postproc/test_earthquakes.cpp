@@ -305,6 +305,12 @@ TEST(Earthquakes, ColumnsOfAgencies) {
       {"ISC",
        "EVENTID,TYPE,AUTHOR   ,DATE      ,TIME       ,LAT     ,LON      ,DEPTH,DEPFIX,AUTHOR   "
        ",TYPE  ,MAG \n1,ke,ISC,1994-01-17,12:30:55.39, 34.213,-118.537, 19.7,,GCMT,MW, 6.7\n"},
+      {"ISC-GEM",
+       "# ISC-GEM catalogue, 1904 on\n#\n#         date          ,  lat   ,   lon   , depth ,  unc "
+       ",q,  mw  , unc ,q\n1994-01-17 12:30:55.39, 34.213,-118.537, 19.7,3.0,A,6.70,0.1,B\n"},
+      {"NEIC's PDE",
+       "Year,Month,Day,Time(hhmmss.mm)UTC,Latitude (deg),Longitude [deg],Magnitude,Depth/km\n"
+       "1994,1,17,123055.39,34.213,-118.537,6.7,5\n"},
       {"ComCat's GeoJSON",
        "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{\"mag\""
        ":6.7,\"time\":758809855390,\"type\":\"earthquake\"},\"geometry\":{\"type\":\"Point\","
