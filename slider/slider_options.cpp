@@ -206,10 +206,11 @@ class CommandLine {
                   "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
     add_whole(group, "--checkpoint-interval", run_.checkpoint_interval, 0,
               "Steps between checkpoints; 0: only when interrupted and at the end (steps)");
-    group.flag("--resume", run_.resume,
-               "Continue from the checkpoint, a finished run also for longer; the catalogue ends as "
-               "if never interrupted",
-               needs(checkpoint));
+    group.flag(
+        "--resume", run_.resume,
+        "Continue from the checkpoint, a finished run also for longer; the catalogue ends as "
+        "if never interrupted",
+        needs(checkpoint));
     group.flag("--overwrite", run_.overwrite,
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "
                "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");

@@ -263,9 +263,10 @@ void Run::begin() {
   if (o_.resume) {
     state_ = read_checkpoint(o_.checkpoint, settings_);
     if (state_.chain.step > o_.steps)
-      throw std::runtime_error(fmt::format("{}: cannot resume: {} steps are done, expected at least "
-                                           "as many with --steps or --time, not {}",
-                                           o_.checkpoint, state_.chain.step, o_.steps));
+      throw std::runtime_error(
+          fmt::format("{}: cannot resume: {} steps are done, expected at least "
+                      "as many with --steps or --time, not {}",
+                      o_.checkpoint, state_.chain.step, o_.steps));
     chain_.set_state(state_.chain);
     filter_.set_counts(state_);
     restore();

@@ -28,8 +28,7 @@
 
 using namespace LAMMPS_NS;
 
-PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), near(_lmp)
+PairLSMFree::PairLSMFree(LAMMPS *_lmp) : Pair(_lmp), request_flags(NeighConst::REQ_SIZE), near(_lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;

@@ -105,19 +105,9 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
 {
   const Step step = {update->setupflag != 0, rounding(domain), update->dt * time_ratio,
                      locate_onset != 0};
-  const LSMFriction::Scene scene = {near,
-                                    *this,
-                                    *this,
-                                    atom->x[0],
-                                    atom->f[0],
-                                    atom->nlocal,
-                                    newton_pair != 0,
-                                    step,
-                                    near_reach(),
-                                    k,
-                                    &table[0],
-                                    screened,
-                                    velocity != nullptr};
+  const LSMFriction::Scene scene = {
+      near, *this,        *this, atom->x[0], atom->f[0], atom->nlocal,       newton_pair != 0,
+      step, near_reach(), k,     &table[0],  screened,   velocity != nullptr};
   LSMFriction::Loop<Law, Recorder>(scene).run();
   near.states_changed();
   if (screened) near.write_states();    // only here it is known which pairs are left out
@@ -241,8 +231,9 @@ void PairLSMFriction::init_style()
 
   if (update->whichflag) check_periods();
   if (update->whichflag && locate_onset && neighbor->skin == 0.0 && comm->me == 0)
-    error->warning(FLERR, "Pair style lsm/friction: with 'neighbor 0.0' no pair is listed before it "
-                          "touches, so 'onset located' acts as 'onset step'; give a skin > 0");
+    error->warning(FLERR,
+                   "Pair style lsm/friction: with 'neighbor 0.0' no pair is listed before it "
+                   "touches, so 'onset located' acts as 'onset step'; give a skin > 0");
 
   // the same name whichever styles were defined before, so that a restart finds the history
   const std::string id_history = "NEIGH_HISTORY_LSM";

@@ -446,8 +446,9 @@ TEST_F(Refused, NewPagesOfNeighborListsForContactsThatAreKept) {
         << change;
     EXPECT_TRUE(succeeded(run_text(start + command + "run 1\nrun 1\n"))) << change;
   }
-  EXPECT_TRUE(succeeded(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
-                                 "fix move all lsm/nve\nrun 1\nneigh_modify page 200000\nrun 1\n")));
+  EXPECT_TRUE(
+      succeeded(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                         "fix move all lsm/nve\nrun 1\nneigh_modify page 200000\nrun 1\n")));
 }
 
 TEST_F(Refused, RecordingBehindAFixThatMovesParticlesToOtherRanks) {

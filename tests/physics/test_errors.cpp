@@ -182,9 +182,8 @@ TEST_F(BadInput, AnotherRunWritesTheFile) {
   for (int ranks : {1, 2})
     for (const char *file : {"held.csv", "held.pe"}) {
       const LSM::FileLock held(path(file));
-      EXPECT_TRUE(failed_with(
-          run_text(shear + "run 10\n", {}, ranks),
-          {file, "is being written by another run"}));
+      EXPECT_TRUE(failed_with(run_text(shear + "run 10\n", {}, ranks),
+                              {file, "is being written by another run"}));
       EXPECT_FALSE(std::filesystem::exists(path("held.csv"))) << file;
     }
   EXPECT_TRUE(succeeded(run_text(shear + "run 10\nuncompute events\n")));

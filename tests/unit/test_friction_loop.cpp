@@ -74,13 +74,19 @@ struct Rows {
   void evaluate(bool one_by_one = false, bool setup = false) {
     std::fill(f.begin(), f.end(), 0.0);
     contacts.find(x.data());
-    const Scene scene = {contacts, host,
-                         energies, x.data(),
-                         f.data(), 2 * each,
-                         false,    Step{setup, 1e-12, dt, true},
+    const Scene scene = {contacts,
+                         host,
+                         energies,
+                         x.data(),
+                         f.data(),
+                         2 * each,
+                         false,
+                         Step{setup, 1e-12, dt, true},
                          LSM::friction_contact::NEAR_REACH,
-                         k,        coefficients,
-                         one_by_one, false};
+                         k,
+                         coefficients,
+                         one_by_one,
+                         false};
     Loop<Law, Recorder>(scene).run();
   }
 };

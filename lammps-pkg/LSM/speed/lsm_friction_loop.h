@@ -18,272 +18,272 @@
 
 namespace LAMMPS_NS {
 namespace LSMFriction {
-using namespace LSM::friction_contact;
+  using namespace LSM::friction_contact;
 
-/// What the loop leaves to LAMMPS, as few scenes need it.
-class Host {
- public:
-  virtual ~Host() noexcept(false) {}    // as LAMMPS' own base classes
+  /// What the loop leaves to LAMMPS, as few scenes need it.
+  class Host {
+   public:
+    virtual ~Host() noexcept(false) {}    // as LAMMPS' own base classes
 
-  /// Whether a pair must not interact. Called only if the scene is screened.
-  virtual bool is_left_out(int place) const = 0;
-  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
-  /// this rank's share of its power. Called only if the scene is viscous.
-  virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
-  /// Tallies LAMMPS' own energy and virial. Called only by a recorder that tallies.
-  virtual void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
-                     double dely) = 0;
-};
+    /// Whether a pair must not interact. Called only if the scene is screened.
+    virtual bool is_left_out(int place) const = 0;
+    /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
+    /// this rank's share of its power. Called only if the scene is viscous.
+    virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
+    /// Tallies LAMMPS' own energy and virial. Called only by a recorder that tallies.
+    virtual void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
+                       double dely) = 0;
+  };
 
-/// What the loop reads and writes.
-struct Scene {
-  LSMContacts &contacts;
-  Host &host;
-  LSMEnergySource &energies;
-  const double *x;    ///< positions
-  double *f;          ///< forces, to which those of contacts are added
-  int nlocal;         ///< particles of this rank
-  bool newton;        ///< a force on ghosts, too, which their ranks receive
-  Step step;
-  double reach;                     ///< up to this distance, in sums of radii, pairs without
-                                    ///< contact have a state
-  const LSMTypePairs<double> &k;    ///< normal stiffness
-  const LSMTypePairs<double> *coefficients;    ///< by parameter of the law
-  bool screened;                               ///< there are pairs that must not interact
-  bool viscous;                     ///< contacts have dashpots
-};
+  /// What the loop reads and writes.
+  struct Scene {
+    LSMContacts &contacts;
+    Host &host;
+    LSMEnergySource &energies;
+    const double *x;    ///< positions
+    double *f;          ///< forces, to which those of contacts are added
+    int nlocal;         ///< particles of this rank
+    bool newton;        ///< a force on ghosts, too, which their ranks receive
+    Step step;
+    double reach;                     ///< up to this distance, in sums of radii, pairs without
+                                      ///< contact have a state
+    const LSMTypePairs<double> &k;    ///< normal stiffness
+    const LSMTypePairs<double> *coefficients;    ///< by parameter of the law
+    bool screened;                               ///< there are pairs that must not interact
+    bool viscous;                                ///< contacts have dashpots
+  };
 
-/// The loop over the pairs that touch, compiled for each law and recorder. The setup of a run
-/// evaluates the forces of a step that was done: the state of the contacts stays, so that a run in
-/// pieces equals one run, and a contact that slides goes on sliding. Only where a command moved
-/// particles since, by more than they are rounded when they cross a border of the box, their
-/// contacts follow.
-template <class Law, class Recorder> class Loop {
- public:
-  explicit Loop(const Scene &of) :
-      scene(of), contacts(of.contacts), states(of.contacts.state(0)), x(of.x), f(of.f), nlocal(of.nlocal),
-      reach_sq(of.reach * of.reach), step(of.step),
-      side_by_side(Law::state_size == 0 && !Recorder::tallies && !step.setup && !of.screened &&
-                   !of.viscous),
-      recorder(of.energies, step.setup)
-  {
-  }
+  /// The loop over the pairs that touch, compiled for each law and recorder. The setup of a run
+  /// evaluates the forces of a step that was done: the state of the contacts stays, so that a run
+  /// in pieces equals one run, and a contact that slides goes on sliding. Only where a command
+  /// moved particles since, by more than they are rounded when they cross a border of the box,
+  /// their contacts follow.
+  template <class Law, class Recorder> class Loop {
+   public:
+    explicit Loop(const Scene &of) :
+        scene(of), contacts(of.contacts), states(of.contacts.state(0)), x(of.x), f(of.f),
+        nlocal(of.nlocal), reach_sq(of.reach * of.reach), step(of.step),
+        side_by_side(Law::state_size == 0 && !Recorder::tallies && !step.setup && !of.screened &&
+                     !of.viscous),
+        recorder(of.energies, step.setup)
+    {
+    }
 
-  [[gnu::always_inline]] void run()
-  {
-    const int count = contacts.size();
-    for (int first = 0; first < count; first += LANES) {
-      if (side_by_side) continue_all(first, count);
-      for (int n = first; n < std::min(first + LANES, count); n++) {
-        const int place = contacts[n], lane = n - first;
-        const bool before = contacts.is_touching(place);
-        double *const h = states + static_cast<size_t>(place) * size;
-        if (side_by_side && before && block.rsq[lane] < block.r0[lane] * block.r0[lane]) {
-          const Site &site = contacts.pair(place);
-          const bool both = is_both(site);
-          const Push push = block.push(lane);
-          if constexpr (Recorder::records) record(site, false, push, both);
-          keep<Law>(push.step, block.delx[lane], block.dely[lane], h);
-          add_forces(site, push, both);
-          continue;
+    [[gnu::always_inline]] void run()
+    {
+      const int count = contacts.size();
+      for (int first = 0; first < count; first += LANES) {
+        if (side_by_side) continue_all(first, count);
+        for (int n = first; n < std::min(first + LANES, count); n++) {
+          const int place = contacts[n], lane = n - first;
+          const bool before = contacts.is_touching(place);
+          double *const h = states + static_cast<size_t>(place) * size;
+          if (side_by_side && before && block.rsq[lane] < block.r0[lane] * block.r0[lane]) {
+            const Site &site = contacts.pair(place);
+            const bool both = is_both(site);
+            const Push push = block.push(lane);
+            if constexpr (Recorder::records) record(site, false, push, both);
+            keep<Law>(push.step, block.delx[lane], block.dely[lane], h);
+            add_forces(site, push, both);
+            continue;
+          }
+          if (!side_by_side && n + AHEAD < count) fetch_forces(contacts.pair(contacts[n + AHEAD]));
+          bool touch = before;
+          if (!before && place < contacts.kept_before()) {
+            const double *const d = contacts.vector_before(place), r0 = contacts.pair(place).r0;
+            keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
+          } else if (!before)
+            touch = h[STATUS] == NEAR;
+          evaluate(place, touch, h);
+          const bool after = touch && h[STATUS] != NEAR;
+          if (after != before) contacts.set_touching(place, after);
         }
-        if (!side_by_side && n + AHEAD < count) fetch_forces(contacts.pair(contacts[n + AHEAD]));
-        bool touch = before;
-        if (!before && place < contacts.kept_before()) {
-          const double *const d = contacts.vector_before(place), r0 = contacts.pair(place).r0;
-          keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
-        } else if (!before)
-          touch = h[STATUS] == NEAR;
-        evaluate(place, touch, h);
-        const bool after = touch && h[STATUS] != NEAR;
-        if (after != before) contacts.set_touching(place, after);
       }
+      recorder.finish();
     }
-    recorder.finish();
-  }
 
- private:
-  using Site = LSMContacts::Pair;
-  static constexpr int LANES = 32, AHEAD = 8, size = LAW_STATE + Law::state_size;
-  const Scene &scene;
-  LSMContacts &contacts;
-  double *const states;
-  const double *const x;
-  double *const f;
-  const int nlocal;
-  const double reach_sq;
-  const Step step;
-  const bool side_by_side;
-  Recorder recorder;
+   private:
+    using Site = LSMContacts::Pair;
+    static constexpr int LANES = 32, AHEAD = 8, size = LAW_STATE + Law::state_size;
+    const Scene &scene;
+    LSMContacts &contacts;
+    double *const states;
+    const double *const x;
+    double *const f;
+    const int nlocal;
+    const double reach_sq;
+    const Step step;
+    const bool side_by_side;
+    Recorder recorder;
 
-  struct Geometry {
-    double rsq, r, nx, ny;
+    struct Geometry {
+      double rsq, r, nx, ny;
 
-    Geometry(double delx, double dely) : rsq(delx * delx + dely * dely), r(sqrt(rsq))
-    {
-      const double rinv = r > 0.0 ? 1.0 / r : 0.0;
-      nx = delx * rinv;
-      ny = dely * rinv;
-    }
-  };
-
-  struct Push {
-    double fx, fy;                // on the first particle
-    double normal, tangential;    // energies of the springs
-    LSM::FrictionStep step;
-  };
-  [[gnu::always_inline]] static Push push_of(const Geometry &g, double stretch, double k, double kt,
-                                             double fn, const LSM::FrictionStep &s)
-  {
-    return {fn * g.nx + s.force * g.ny, fn * g.ny - s.force * g.nx, LSM::Spring::energy(k, stretch),
-            LSM::Spring::energy(kt, s.xi), s};
-  }
-
-  // Most contacts were there in the step before: those that follow each other are computed side by
-  // side, in a loop that compilers turn into vectors, and take their turn afterwards. It gives the
-  // same digits with each instruction set.
-  struct alignas(64) Block {
-    double delx[LANES], dely[LANES], h[LAW_STATE][LANES];
-    double r0[LANES], k[LANES], coefficients[std::size(Law::parameters)][LANES];
-    double rsq[LANES], fx[LANES], fy[LANES], normal[LANES], tangential[LANES];
-    double slip[LANES], dissipated[LANES];
-
-    Push push(int n) const
-    {
-      const bool slides = Law::needs_sliding && h[STATUS][n] == SLIDES;
-      const LSM::FrictionStep s = {h[XI][n], 0.0, slip[n], dissipated[n], slides};
-      return {fx[n], fy[n], normal[n], tangential[n], s};
-    }
-    [[gnu::always_inline]] void solve(double time)
-    {
-      for (int n = 0; n < LANES; n++) {
-        const Geometry g(delx[n], dely[n]);
-        const auto c =
-            LSM::coefficients_of<Law>([this, n](std::size_t p) { return coefficients[p][n]; });
-        const LSM::FrictionContact contact{LSM::contact_normal_force(k[n], g.r, r0[n]), h[XI][n],
-                                           displacement(delx[n], dely[n], h[DX][n], h[DY][n]), time,
-                                           Law::needs_sliding && h[STATUS][n] == SLIDES};
-        const Push done =
-            push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
-        rsq[n] = g.rsq;
-        fx[n] = done.fx;
-        fy[n] = done.fy;
-        h[XI][n] = done.step.xi;
-        if constexpr (Law::needs_sliding) h[STATUS][n] = done.step.sliding ? SLIDES : STICKS;
-        if constexpr (!Recorder::records) continue;
-        normal[n] = done.normal;
-        tangential[n] = done.tangential;
-        slip[n] = done.step.slip;
-        dissipated[n] = done.step.dissipated;
+      Geometry(double delx, double dely) : rsq(delx * delx + dely * dely), r(sqrt(rsq))
+      {
+        const double rinv = r > 0.0 ? 1.0 / r : 0.0;
+        nx = delx * rinv;
+        ny = dely * rinv;
       }
+    };
+
+    struct Push {
+      double fx, fy;                // on the first particle
+      double normal, tangential;    // energies of the springs
+      LSM::FrictionStep step;
+    };
+    [[gnu::always_inline]] static Push push_of(const Geometry &g, double stretch, double k,
+                                               double kt, double fn, const LSM::FrictionStep &s)
+    {
+      return {fn * g.nx + s.force * g.ny, fn * g.ny - s.force * g.nx,
+              LSM::Spring::energy(k, stretch), LSM::Spring::energy(kt, s.xi), s};
     }
-    LSM_AVX2 void solve_avx2(double time) { solve(time); }
-  };
-  Block block;
 
-  // Prefetches the forces of a contact's particles, which are far from each other in memory.
-  void fetch_forces(const Site &site) const
-  {
-    for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
-  }
+    // Most contacts were there in the step before: those that follow each other are computed side
+    // by side, in a loop that compilers turn into vectors, and take their turn afterwards. It gives
+    // the same digits with each instruction set.
+    struct alignas(64) Block {
+      double delx[LANES], dely[LANES], h[LAW_STATE][LANES];
+      double r0[LANES], k[LANES], coefficients[std::size(Law::parameters)][LANES];
+      double rsq[LANES], fx[LANES], fy[LANES], normal[LANES], tangential[LANES];
+      double slip[LANES], dissipated[LANES];
 
-  [[gnu::always_inline]] void continue_all(int first, int count)
-  {
-    for (int lane = 0; lane < LANES; lane++) {
-      const int place = contacts[std::min(first + lane, count - 1)];
+      Push push(int n) const
+      {
+        const bool slides = Law::needs_sliding && h[STATUS][n] == SLIDES;
+        const LSM::FrictionStep s = {h[XI][n], 0.0, slip[n], dissipated[n], slides};
+        return {fx[n], fy[n], normal[n], tangential[n], s};
+      }
+      [[gnu::always_inline]] void solve(double time)
+      {
+        for (int n = 0; n < LANES; n++) {
+          const Geometry g(delx[n], dely[n]);
+          const auto c =
+              LSM::coefficients_of<Law>([this, n](std::size_t p) { return coefficients[p][n]; });
+          const LSM::FrictionContact contact{LSM::contact_normal_force(k[n], g.r, r0[n]), h[XI][n],
+                                             displacement(delx[n], dely[n], h[DX][n], h[DY][n]),
+                                             time, Law::needs_sliding && h[STATUS][n] == SLIDES};
+          const Push done =
+              push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
+          rsq[n] = g.rsq;
+          fx[n] = done.fx;
+          fy[n] = done.fy;
+          h[XI][n] = done.step.xi;
+          if constexpr (Law::needs_sliding) h[STATUS][n] = done.step.sliding ? SLIDES : STICKS;
+          if constexpr (!Recorder::records) continue;
+          normal[n] = done.normal;
+          tangential[n] = done.tangential;
+          slip[n] = done.step.slip;
+          dissipated[n] = done.step.dissipated;
+        }
+      }
+      LSM_AVX2 void solve_avx2(double time) { solve(time); }
+    };
+    Block block;
+
+    // Prefetches the forces of a contact's particles, which are far from each other in memory.
+    void fetch_forces(const Site &site) const
+    {
+      for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
+    }
+
+    [[gnu::always_inline]] void continue_all(int first, int count)
+    {
+      for (int lane = 0; lane < LANES; lane++) {
+        const int place = contacts[std::min(first + lane, count - 1)];
+        const Site &site = contacts.pair(place);
+        fetch_forces(site);
+        const double *const d = contacts.vector(place);
+        const double *const h = states + static_cast<size_t>(place) * size;
+        block.delx[lane] = d[0];
+        block.dely[lane] = d[1];
+        for (int c = 0; c < LAW_STATE; c++) block.h[c][lane] = h[c];
+        block.r0[lane] = site.r0;
+        block.k[lane] = scene.k.at(site.types);
+        for (std::size_t p = 0; p < std::size(Law::parameters); p++)
+          block.coefficients[p][lane] = scene.coefficients[p].at(site.types);
+      }
+      if (LSMLinkKernel::has_avx2())
+        block.solve_avx2(step.time);
+      else
+        block.solve(step.time);
+    }
+
+    bool is_both(const Site &site) const { return scene.newton || site.j < nlocal; }
+
+    [[gnu::always_inline]] double normal_force(const Site &site, double r, bool apart,
+                                               bool both) const
+    {
+      const double fn = LSM::contact_normal_force(scene.k.at(site.types), r, site.r0);
+      return scene.viscous && !apart && r > 0.0
+                 ? fn + scene.host.drag(site, r, fn, both ? 1.0 : 0.5)
+                 : fn;
+    }
+
+    [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
+    {
       const Site &site = contacts.pair(place);
-      fetch_forces(site);
-      const double *const d = contacts.vector(place);
-      const double *const h = states + static_cast<size_t>(place) * size;
-      block.delx[lane] = d[0];
-      block.dely[lane] = d[1];
-      for (int c = 0; c < LAW_STATE; c++) block.h[c][lane] = h[c];
-      block.r0[lane] = site.r0;
-      block.k[lane] = scene.k.at(site.types);
-      for (std::size_t p = 0; p < std::size(Law::parameters); p++)
-        block.coefficients[p][lane] = scene.coefficients[p].at(site.types);
-    }
-    if (LSMLinkKernel::has_avx2())
-      block.solve_avx2(step.time);
-    else
-      block.solve(step.time);
-  }
+      const double r0 = site.r0, delx = contacts.vector(place)[0], dely = contacts.vector(place)[1];
+      const Geometry g(delx, dely);
+      const bool apart = g.rsq >= r0 * r0;
+      if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
+      if (scene.screened && scene.host.is_left_out(place)) {
+        touch = false;
+        return;
+      }
+      if (apart && (!touch || h[STATUS] == NEAR)) {
+        keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+        return;
+      }
+      const auto c = LSM::coefficients_of<Law>(
+          [this, &site](std::size_t p) { return scene.coefficients[p].at(site.types); });
 
-  bool is_both(const Site &site) const { return scene.newton || site.j < nlocal; }
-
-  [[gnu::always_inline]] double normal_force(const Site &site, double r, bool apart,
-                                             bool both) const
-  {
-    const double fn = LSM::contact_normal_force(scene.k.at(site.types), r, site.r0);
-    return scene.viscous && !apart && r > 0.0
-        ? fn + scene.host.drag(site, r, fn, both ? 1.0 : 0.5)
-        : fn;
-  }
-
-  [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
-  {
-    const Site &site = contacts.pair(place);
-    const double r0 = site.r0, delx = contacts.vector(place)[0], dely = contacts.vector(place)[1];
-    const Geometry g(delx, dely);
-    const bool apart = g.rsq >= r0 * r0;
-    if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
-    if (scene.screened && scene.host.is_left_out(place)) {
-      touch = false;
-      return;
+      LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
+      const bool moved = follow<Law>(step, c, delx, dely, g.r, r0, touch, h, contact);
+      const bool both = is_both(site);
+      contact.fn = normal_force(site, g.r, apart, both);
+      const Push push = push_of(g, apart ? 0.0 : g.r - r0, scene.k.at(site.types), c.kt, contact.fn,
+                                next<Law>(moved || apart, c, contact, h));
+      if constexpr (Recorder::records) record(site, apart, push, both);
+      if (apart) {
+        keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+        return;
+      }
+      keep<Law>(push.step, delx, dely, h);
+      add_forces(site, push, both);
+      if constexpr (Recorder::tallies)
+        scene.host.tally(site, push.normal + push.tangential, push.fx, push.fy, delx, dely);
     }
-    if (apart && (!touch || h[STATUS] == NEAR)) {
-      keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
-      return;
-    }
-    const auto c = LSM::coefficients_of<Law>(
-        [this, &site](std::size_t p) { return scene.coefficients[p].at(site.types); });
 
-    LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
-    const bool moved = follow<Law>(step, c, delx, dely, g.r, r0, touch, h, contact);
-    const bool both = is_both(site);
-    contact.fn = normal_force(site, g.r, apart, both);
-    const Push push = push_of(g, apart ? 0.0 : g.r - r0, scene.k.at(site.types), c.kt, contact.fn,
-                              next<Law>(moved || apart, c, contact, h));
-    if constexpr (Recorder::records) record(site, apart, push, both);
-    if (apart) {
-      keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
-      return;
+    [[gnu::always_inline]] void add_forces(const Site &site, const Push &push, bool both)
+    {
+      double *const fi = f + 3 * static_cast<size_t>(site.i);
+      double *const fj = f + 3 * static_cast<size_t>(site.j);
+      fi[0] += push.fx;
+      fi[1] += push.fy;
+      if (both) {
+        fj[0] -= push.fx;
+        fj[1] -= push.fy;
+      }
     }
-    keep<Law>(push.step, delx, dely, h);
-    add_forces(site, push, both);
-    if constexpr (Recorder::tallies)
-      scene.host.tally(site, push.normal + push.tangential, push.fx, push.fy, delx, dely);
-  }
 
-  [[gnu::always_inline]] void add_forces(const Site &site, const Push &push, bool both)
-  {
-    double *const fi = f + 3 * static_cast<size_t>(site.i);
-    double *const fj = f + 3 * static_cast<size_t>(site.j);
-    fi[0] += push.fx;
-    fi[1] += push.fy;
-    if (both) {
-      fj[0] -= push.fx;
-      fj[1] -= push.fy;
+    [[gnu::always_inline]] void record(const Site &site, bool apart, const Push &push, bool both)
+    {
+      const double share = both ? 1.0 : 0.5;
+      const LSM::FrictionStep &s = push.step;
+      recorder.springs(share, push.normal, push.tangential);
+      recorder.dissipation(share, s.dissipated);
+      recorder.slip(share, fabs(s.slip) * site.size);
+      if (!recorder.wants_contacts()) return;
+      if (site.across == 0) {
+        recorder.within(share, s.dissipated);
+        return;
+      }
+      const double place =
+          0.5 * (x[3 * static_cast<size_t>(site.i)] + x[3 * static_cast<size_t>(site.j)]);
+      recorder.contact({place, s.dissipated, -site.across * (apart ? 0.0 : push.fx), share});
     }
-  }
-
-  [[gnu::always_inline]] void record(const Site &site, bool apart, const Push &push, bool both)
-  {
-    const double share = both ? 1.0 : 0.5;
-    const LSM::FrictionStep &s = push.step;
-    recorder.springs(share, push.normal, push.tangential);
-    recorder.dissipation(share, s.dissipated);
-    recorder.slip(share, fabs(s.slip) * site.size);
-    if (!recorder.wants_contacts()) return;
-    if (site.across == 0) {
-      recorder.within(share, s.dissipated);
-      return;
-    }
-    const double place =
-        0.5 * (x[3 * static_cast<size_t>(site.i)] + x[3 * static_cast<size_t>(site.j)]);
-    recorder.contact({place, s.dissipated, -site.across * (apart ? 0.0 : push.fx), share});
-  }
-};
+  };
 
 }    // namespace LSMFriction
 }    // namespace LAMMPS_NS

@@ -4,8 +4,8 @@
 
 #include "atom.h"
 #include "force.h"
-#include "friction/friction_contact.h"
 #include "friction/force_laws.h"
+#include "friction/friction_contact.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
@@ -57,7 +57,7 @@ void LSMNearPairs::update(NeighList &of, const double *radii)
   } else {
     // Strays are not looked for if so few pairs are listed that all of them are kept.
     const auto &added = what == Due::choice ? patch.look_at_all(0)
-        : held.empty()                      ? patch.look_at_all(lmp_->atom->nlocal)
+                        : held.empty()      ? patch.look_at_all(lmp_->atom->nlocal)
                                             : patch.look_at(strays);
     for (const LSMListPatch::Added &pair : added) {
       if (store) store->add_pair(pair.i, pair.jj);
@@ -193,8 +193,7 @@ void LSMNearPairs::keep_pairs_of_strays()
     for (int n = first_of[i]; n < first_of[i + 1]; n++)
       if (!is_kept[pairs_of[n]]) keep(pairs_of[n], false);
     for (size_t n = pairs_of.size() / 2; n < listed.size(); n++)    // added since
-      if (!is_kept[n] && (listed[n].i == i || listed[n].j == i))
-        keep(static_cast<int>(n), false);
+      if (!is_kept[n] && (listed[n].i == i || listed[n].j == i)) keep(static_cast<int>(n), false);
   }
 }
 
@@ -269,5 +268,5 @@ bool LSMNearPairs::is_left_out(int place) const
   const int *const type = lmp_->atom->type;
   const int entry = list->firstneigh[pair.i][pair.jj];
   return !(*active)[type[pair.i]][type[pair.j]] ||
-      lmp_->force->special_lj[entry >> SBBITS & 3] == 0.0;
+         lmp_->force->special_lj[entry >> SBBITS & 3] == 0.0;
 }

@@ -75,18 +75,18 @@ class LSMNearPairs : public LSMContacts {
   const double *radius = nullptr;
 
   LSMContactStore *store = nullptr;
-  int stored_size = 0;          // of a state
-  double state_reach = 0.0;     // in sums of radii
-  bool written = true;          // the store is up to date
-  bigint states_build = -1;     // number of the build of the list that the states belong to
-  int known_states = 0;         // pairs whose states were read
+  int stored_size = 0;         // of a state
+  double state_reach = 0.0;    // in sums of radii
+  bool written = true;         // the store is up to date
+  bigint states_build = -1;    // number of the build of the list that the states belong to
+  int known_states = 0;        // pairs whose states were read
 
   std::vector<Listed> listed;    // the whole neighbor list, and behind it what was added since
   std::vector<char> is_kept;     // of each listed pair
   bigint built = -1;             // number of the build of the list
-  std::vector<double> held;      // positions when the pairs were chosen, those of strays later ones;
-                                 // empty where all pairs are kept
-  std::vector<double> moved;     // bounds of displacements since then, without those of strays
+  std::vector<double> held;     // positions when the pairs were chosen, those of strays later ones;
+                                // empty where all pairs are kept
+  std::vector<double> moved;    // bounds of displacements since then, without those of strays
   // The few particles, ghosts among them, that have moved so far since the pairs were chosen that
   // all of their pairs are kept; their motion does not matter then.
   std::vector<int> strays;
