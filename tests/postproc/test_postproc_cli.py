@@ -749,7 +749,7 @@ def test_where(do, no):
     assert Path("of-later.csv").read_text() == Path("of-all.csv").read_text()
     no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where", "select c.csv --where peak_slip>0 -o x.csv")
     for text in "size", "size>", ">1", "size ~ 1", "size>1.2.3", "size >> 1":
-        no("--where '.*': expected a column, one of < <= > >= = != and a number", "select c.csv -o x.csv", ["--where", text])
+        no("--where '.*': expected a column, one of < <= > >= = != and a number", "select", "c.csv", "-o", "x.csv", "--where", text)
     no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")
 
 
