@@ -58,8 +58,12 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
      keyentry with linespoints lt 2 title "fault, length 240 (2623 times)", \
+     table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
+     table using (row(3)):8 with points lt 3 notitle, \
+     keyentry with linespoints lt 3 title "fault, length 480 (3576 times)", \
      [2.4999999999999982:501.18723362727303] '+' using 1:(0.037513304044765404*$1**(0.31408744522841081)*exp(-$1**(1)/12.189942562475187)) with lines lt 1 dt 3 lw 2 notitle, \
      [2.4999999999999982:199.52623149688822] '+' using 1:(0.047315223492620399*$1**(0.20960004261607845)*exp(-$1**(1)/12.013365659206201)) with lines lt 2 dt 3 lw 2 notitle, \
+     [2.4999999999999982:125.89254117941687] '+' using 1:(0.04653757052040839*$1**(0.15746761744731397)*exp(-$1**(1)/11.225549833118464)) with lines lt 3 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

@@ -279,6 +279,23 @@ TEST(EventPicker, MemoryTimeMakesPicksIndependentOfTheTimeStep) {
   }
 }
 
+/// While PE rises at a constant rate the smoothed change is that of a step, so that a sudden drop
+/// is seen only if 1 - lambda of it outweighs what is loaded in a step.
+TEST(EventPicker, SuddenDropMustExceedTheLoadingOfOneMemory) {
+  const double loading = 0.25, lambda = 0.99;
+  const double least = loading / (1.0 - lambda);  // 100 steps of loading
+  for (const double drop : {0.99 * least, 1.01 * least}) {
+    SCOPED_TRACE(drop / least);
+    std::vector<double> pe = {0.0};
+    for (int step = 1; step <= 4000; ++step)
+      pe.push_back(pe.back() + loading - (step == 2000 ? drop : 0.0));
+    EventPicker picker(settings(PickerReading::exponential, lambda));
+    const std::vector<Event> events = pick(picker, pe);
+    ASSERT_EQ(events.size(), drop > least ? 1U : 0U);
+    if (!events.empty()) EXPECT_NEAR(events[0].size, drop - loading, 1e-9 * drop);
+  }
+}
+
 TEST(EventPicker, FixedLambdaDependsOnTheTimeStep) {
   std::vector<double> ends;
   for (double dt : {0.1, 0.01}) {
