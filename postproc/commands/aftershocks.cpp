@@ -64,23 +64,25 @@ class AftershockRates : public Statistic {
     rule.first = first_;
     std::vector<double> sizes = column_from(table, rule.least_size, &Event::size);
     if (sizes.size() < 2)
-      throw std::runtime_error(
-          fmt::format("{}: {} events of size {} or larger, expected at least 2", table.path,
-                      sizes.size(), short_number(rule.least_size)));
+      throw DegenerateData(fmt::format("{}: {} events of size {} or larger, expected at least 2",
+                                       table.path, sizes.size(), short_number(rule.least_size)));
     std::sort(sizes.begin(), sizes.end(), std::greater<double>());
     const auto rank = static_cast<std::size_t>(share_ * static_cast<double>(sizes.size()));
     rule.main_size = main_size_.value_or(sizes[std::min(rank, sizes.size() - 1)]);
     const auto large = events_from(table, std::max(rule.main_size, rule.least_size));
     if (large == 0)
-      throw std::runtime_error(
+      throw DegenerateData(
           fmt::format("{}: no event of size {} or larger, expected a smaller --main-size",
                       table.path, short_number(rule.main_size)));
     const double span = table.events.back().t_start - table.events.front().t_start;
+    if (!(span > 0.0))
+      throw DegenerateData(table.path + ": all times are 0: the events start together");
     rule.window = window_.value_or(0.2 * span / static_cast<double>(large));
     return rule;
   }
 
   Results of(const std::vector<EventTable> &tables) override {
+    expect_events(tables);
     std::vector<AftershockCurve> curves;
     for (const EventTable &table : tables)
       curves.push_back(

@@ -41,7 +41,7 @@ ExploreSeries load_series(const std::string &path, const CatalogueOptions &which
   const std::int64_t stride = series.info.stride;
   bool even = !series.info.explicit_times;
   series.samples = input.read_some([&](std::int64_t step, double time, double pe) {
-    if (time < options.from_time) return;
+    if (is_before(time, options.from_time)) return;
     const auto count = static_cast<std::int64_t>(series.pe.size());
     if (count == 0) series.first_step = step;
     if (even && step != series.first_step + count * stride) {
@@ -80,6 +80,7 @@ class Explore : public Command {
 
   void add_options(CLI::App *command) override {
     catalogues_.add_to(command);
+    catalogues_.add_magnitude_bin(command);
     catalogues_.details = most_events;
     page_.program = "postproc " POSTPROC_VERSION;
     OptionGroup own(command);

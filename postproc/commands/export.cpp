@@ -34,8 +34,9 @@ struct Exported {
   const Event &event;
   std::size_t catalogue;
   std::string date;
-  double magnitude, longitude;
-  const std::string &type;  ///< type of the magnitude
+  double magnitude, longitude, latitude;
+  double depth;             ///< km; NaN: not known
+  const std::string &type;  ///< type of the magnitude; "": not known
 };
 
 /// A format of the output.
@@ -47,13 +48,14 @@ struct Format {
 };
 
 std::string seismostats_row(const Exported &e) {
-  return fmt::format("{},0,0,{},{},{},{},{},{},{}\n", e.longitude, e.date, e.magnitude, e.event.id,
-                     e.catalogue, e.event.t_end - e.event.t_start, e.event.size, e.type);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", e.longitude, e.latitude, e.depth, e.date,
+                     e.magnitude, e.event.id, e.catalogue, e.event.t_end - e.event.t_start,
+                     e.event.size, e.type);
 }
 
 std::string csep_row(const Exported &e) {
-  return fmt::format("{},0,{},{},0,{},{}\n", e.longitude, e.magnitude, e.date, e.catalogue,
-                     e.event.id);
+  return fmt::format("{},{},{},{},{},{},{}\n", e.longitude, e.latitude, e.magnitude, e.date,
+                     e.depth, e.catalogue, e.event.id);
 }
 
 std::string quakeml_event(const Exported &e) {
@@ -71,12 +73,12 @@ std::string quakeml_event(const Exported &e) {
   origin.append_attribute("publicID") = (name + "/origin").c_str();
   value(origin, "time", e.date + "Z");
   value(origin, "longitude", fmt::format("{}", e.longitude));
-  value(origin, "latitude", "0");
-  value(origin, "depth", "0");
+  value(origin, "latitude", fmt::format("{}", e.latitude));
+  if (!std::isnan(e.depth)) value(origin, "depth", fmt::format("{}", 1000.0 * e.depth));
   pugi::xml_node magnitude = event.append_child("magnitude");
   magnitude.append_attribute("publicID") = (name + "/magnitude").c_str();
   value(magnitude, "mag", fmt::format("{}", e.magnitude));
-  magnitude.append_child("type").text().set(e.type.c_str());
+  if (!e.type.empty()) magnitude.append_child("type").text().set(e.type.c_str());
   magnitude.append_child("originID").text().set((name + "/origin").c_str());
   std::ostringstream text;
   document.save(text, " ", pugi::format_indent | pugi::format_no_declaration);
@@ -104,8 +106,9 @@ class Export : public CatalogueAnalysis {
   std::optional<double> unit_;  // seconds per unit of model time
 
   const char *help() const override {
-    return "Writes catalogues as a file for earthquake catalogue tools. A model has neither dates "
-           "nor magnitudes, so that both have to be chosen: by --unit-length, --p-speed and "
+    return "Writes catalogues as a file for earthquake catalogue tools. Earthquakes keep their "
+           "dates, magnitudes, places and depths. A model has neither dates nor magnitudes, so "
+           "that both have to be chosen: by --unit-length, --p-speed and "
            "--density of a rock, from which magnitudes, times and longitudes follow; or by "
            "--time-unit, --start-date and --magnitude-constant, M = (2/3) log10(size) + constant "
            "†. A model of a single fault has no geography: latitude and depth are 0";
@@ -113,6 +116,8 @@ class Export : public CatalogueAnalysis {
 
   void add_options(CLI::App *command) override {
     catalogues.add_to(command);
+    catalogues.bins_for_models = true;
+    catalogues.add_magnitude_bin(command, "none for models; magnitudes of earthquakes as they are");
     json.add_to(command);
     OptionGroup own(command);
     own.remove("--format");  // the format of the output has the name instead
@@ -148,10 +153,9 @@ class Export : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  /// Checks that everything was given that the model leaves open.
+  /// Checks that everything was given that a model leaves open.
   /// \throws std::invalid_argument otherwise
   void check_conventions() const {
-    magnitudes_.check();
     if (magnitudes_.units.given()) {
       if (unit_)
         throw std::invalid_argument(
@@ -173,7 +177,7 @@ class Export : public CatalogueAnalysis {
   /// Seconds since 1970 of model time 0.
   /// \throws std::invalid_argument for impossible options
   std::int64_t checked_start() const {
-    check_conventions();
+    magnitudes_.check();
     const std::string start = start_.value_or("2000-01-01");
     const std::optional<double> days = parse_date(start);
     if (!days)
@@ -189,27 +193,34 @@ class Export : public CatalogueAnalysis {
     return magnitudes_.units.units().length / metres;
   }
 
-  std::string conventions(std::int64_t start) const {
+  std::string conventions(std::int64_t start, bool models, bool quakes) const {
+    std::string out;
+    if (quakes) out = "earthquakes: dates, magnitudes, places and depths of the files\n";
+    if (!models) return out;
     const double second = unit_ ? *unit_ : magnitudes_.units.units().time();
-    return fmt::format("{}; a unit of time is {} s; time 0 is {}\n", magnitudes_.text(),
-                       short_number(second), date_text(0.0, start, 9999).substr(0, 19));
+    return out + fmt::format("{}; a unit of time is {} s; time 0 is {}\n", magnitudes_.text(),
+                             short_number(second), date_text(0.0, start, 9999).substr(0, 19));
   }
 
   Results find() override {
     const std::int64_t start = checked_start();
     const Format *format = formats;
     while (format->name != format_) ++format;
-    const std::string type = magnitudes_.type();
+    const std::string of_model = magnitudes_.type(), unknown;
     const auto file = std::make_shared<ClaimedFile<text_io::OutputFile>>(output_.path, overwrite);
     text_io::OutputFile &out = file->writer;
     out.create(output_.path, format->head, true);
     std::string block;
     std::int64_t written = 0, without = 0;
     std::size_t number = 0;
+    bool models = false, quakes = false;
     for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
       MagnitudeScale scale;
       double per_length = 0.0, second = 0.0;
       const auto begin = [&](const EventTable &table) {
+        (table.earthquakes() ? quakes : models) = true;
+        if (table.earthquakes()) return;
+        check_conventions();
         scale = magnitudes_.scale(path, table.info);
         second = unit_ ? *unit_ : magnitudes_.units.units(path, table.info).time();
         per_length = degrees(table.info);
@@ -219,21 +230,37 @@ class Export : public CatalogueAnalysis {
               ": has no column x_centroid, expected one for --degrees-per-length (fault: -var "
               "location yes)");
       };
-      const auto use = [&](const Event &event) {
+      const auto write = [&](const Exported &row) {
+        ++written;
+        block += format->event(row);
+        if (block.size() < (1 << 16)) return;
+        out.write(block);
+        block.clear();
+      };
+      const double bin = catalogues.magnitude_bin.value_or(0.0);
+      const auto use = [&](const ReadEvent &event) {
+        if (const Earthquake *const quake = event.earthquake) {
+          const std::string date = date_text(quake->time * 86400.0, 0, format->last_year);
+          if (date.empty())
+            throw std::runtime_error(fmt::format(
+                "{}: event {} is outside the years 1700 to {} that this --format can have", path,
+                event.id, format->last_year));
+          return write({event, number, date, binned(quake->magnitude, bin), quake->longitude,
+                        quake->latitude, quake->depth, unknown});
+        }
         const double quantity = magnitudes_.quantity(event);
-        ++(quantity > 0.0 ? written : without);
-        if (!(quantity > 0.0)) return;
+        if (!(quantity > 0.0)) {
+          ++without;
+          return;
+        }
         const std::string date = date_text(event.t_start * second, start, format->last_year);
         if (date.empty())
           throw std::runtime_error(
               fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
                           "expected another --time-unit or --start-date",
                           path, event.id, event.t_start, format->last_year));
-        block += format->event({event, number, date, binned(scale.of(quantity), magnitudes_.bin),
-                                event.x_centroid * per_length, type});
-        if (block.size() < (1 << 16)) return;
-        out.write(block);
-        block.clear();
+        write({event, number, date, binned(scale.of(quantity), bin), event.x_centroid * per_length,
+               0.0, 0.0, of_model});
       };
       const EventTable table = read_events(path, one, use, begin);
       state_repairs(table);
@@ -242,7 +269,11 @@ class Export : public CatalogueAnalysis {
     });
     out.write(block + format->tail);
     Results results;
-    results.say(conventions(start));
+    results.say(conventions(start, models, quakes));
+    if (!models && (unit_ || start_ || magnitudes_.for_models()))
+      results.warn(
+          "earthquakes keep their dates and magnitudes: --time-unit, --start-date, "
+          "--magnitude-slope, --magnitude-constant and SI units are for models");
     results.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\n",
                             written, without, magnitudes_.of()));
     results.file(output_.path, [file] { file->writer.close(); });

@@ -27,6 +27,7 @@ class Fit : public Statistic {
 
   void add_options(CLI::App *command) override {
     add_usual(command, "fit");
+    catalogues.add_magnitude_bin(command);
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
               "LO:HI, sizes that are fitted, several allowed; without it three decades, as in the "
@@ -111,11 +112,12 @@ class Fit : public Statistic {
       bootstrap_.block = parse_block(block_);
       scalings = scale_sizes(tables, settings_.threshold, bootstrap_);
       if (scalings.empty())
-        throw std::runtime_error("--scaling: no catalogue gives its length or number of blocks");
+        throw DegenerateData("--scaling: no catalogue gives its length or number of blocks");
     }
     Results results;
     if (settings_.ranges.empty()) results.say(texts(settings_.threshold, tables));
     results.say(completeness_notes(fits));
+    results.say(bin_notes(tables));
     results.numbers("fits", nlohmann::json(fits));
     for (const Scaling &scaling : scalings) results.say(scaling_text(scaling));
     if (scaling_) results.numbers("scaling", nlohmann::json(scalings));

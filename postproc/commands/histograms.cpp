@@ -19,12 +19,13 @@ class Histograms : public Statistic {
 
   void add_options(CLI::App *command) override {
     add_usual(command, "histograms");
+    catalogues.add_magnitude_bin(command);
     OptionGroup group(command, "Densities");
     add_threshold(group, settings_.threshold, "the densities");
     group.add("--range", range_, "LO:HI, only bins within this range of sizes");
     group.add("--bin-factor", settings_.factor,
               "Ratio of the edges of a bin, c of the paper's c^n († ten bins a "
-              "decade)");
+              "decade); for earthquakes the nearest whole number of bins of magnitudes");
     group.add("--guide", guides_,
               "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, fault) "
               "or -0.5:1e-3:1 (paper, small events of the block-slider)",
@@ -49,6 +50,7 @@ class Histograms : public Statistic {
     figure.table.comment(texts(settings_.threshold, tables));
     Results results;
     results.say(texts(settings_.threshold, tables));
+    results.say(bin_notes(tables));
     for (const SizeDensity &density : densities)
       if (density.bins.empty())
         results.warn(density.label + ": no bin within the range of sizes has an event, no curve");

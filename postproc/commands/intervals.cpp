@@ -103,6 +103,7 @@ class Intervals : public Statistic {
                                     ", expected 'free' or a positive number");
       settings_.deltas.push_back(delta);
     }
+    expect_events(tables);
     const std::vector<IntervalCurve> curves = interval_curves(tables, settings_);
     Figure figure = interval_figure(curves, settings_.rescale);
     const std::vector<Table1Row> rows = table1_rows(curves);
@@ -110,8 +111,10 @@ class Intervals : public Statistic {
     for (const IntervalCurve &curve : curves)
       if (curve.plot.bins.empty())
         results.warn(
-            fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
-                        curve.sample.label, short_number(curve.sample.threshold.size)));
+            curve.n > 0
+                ? curve.sample.label + ": all times are 0: the events start together"
+                : fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
+                              curve.sample.label, short_number(curve.sample.threshold.size)));
     if (settings_.places > 0)
       results.say(fmt::format(
           "times at {} places each; places closer than the length of ruptures share ruptures, "

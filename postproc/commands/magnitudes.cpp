@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "command.h"
 #include "magnitude_figure.h"
@@ -19,13 +22,17 @@ class Magnitudes : public Statistic {
     return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
            "Mulargia 1987; error Shi and Bolt 1982), b-positive (van der Elst 2021) and "
            "completeness by maximum curvature. † The paper has sizes only. Magnitudes are "
-           "a convention, M = slope log10(size) + constant, unless the model has SI units "
+           "those of the file for earthquakes, and for models a convention, M = slope log10(size) + "
+           "constant, unless the model has SI units "
            "(--unit-length, --p-speed, --density); a power law of sizes with exponent a gives b = "
            "(a - 1) / slope";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "magnitudes");
+    catalogues.bins_for_models = true;
+    catalogues.add_magnitude_bin(
+        command, "none for models; for earthquakes the step of the magnitudes in the file");
     OptionGroup group(command, "Magnitudes †");
     magnitudes_.add_to(group);
     group.add(
@@ -42,10 +49,14 @@ class Magnitudes : public Statistic {
   /// Magnitudes of one catalogue, in the order of its events.
   std::vector<double> magnitudes_in(const EventTable &table, const MagnitudeScale &scale) const {
     std::vector<double> out;
-    for (const double quantity : magnitudes_.of_moment()
-                                     ? column(table.details, &Event::slip_moment)
-                                     : column(table.events, &Event::size))
-      if (quantity > 0.0) out.push_back(binned(scale.of(quantity), magnitudes_.bin));
+    const double bin = table.bins.width;
+    if (table.earthquakes())
+      for (const double magnitude : table.magnitudes) out.push_back(binned(magnitude, bin));
+    else
+      for (const double quantity : magnitudes_.of_moment()
+                                       ? column(table.details, &Event::slip_moment)
+                                       : column(table.events, &Event::size))
+        if (quantity > 0.0) out.push_back(binned(scale.of(quantity), bin));
     return out;
   }
 
@@ -66,17 +77,30 @@ class Magnitudes : public Statistic {
           "magnitudes of moments");
     } else if (from == "header") {
       const SmallestSize smallest = threshold_.of(table);
-      if (!(smallest.size > 0.0))
+      if (!(smallest.size > 0.0) && threshold_.given)
         throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
-      curve.completeness = scale.of(smallest.size);
+      // The sizes of earthquakes come from decimal magnitudes.
+      curve.completeness = table.earthquakes() ? nearest_decimal(magnitude_of_size(smallest.size))
+                                               : scale.of(smallest.size);
       curve.completeness_text = "sizes >= " + text(smallest);
     } else {
       throw std::invalid_argument("--complete-from " + text_io::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");
     }
     // Rounds the completeness up to the centre of a bin, which b_value() requires.
-    const double bin = magnitudes_.bin;
-    if (bin > 0.0) curve.completeness = bin * std::ceil(curve.completeness / bin - 1e-9);
+    const double bin = curve.bin;
+    if (bin > 0.0)
+      curve.completeness =
+          nearest_decimal(bin * std::ceil(curve.completeness / bin - magnitude_tolerance));
+  }
+
+  /// Where the magnitudes come from, for readers.
+  std::string formula(const std::vector<EventTable> &tables) const {
+    const auto quakes = std::count_if(tables.begin(), tables.end(),
+                                      [](auto &table) { return table.earthquakes(); });
+    if (quakes == 0) return magnitudes_.text();
+    const std::string of_file = "M of earthquakes as in the file";
+    return quakes == std::ptrdiff_t(tables.size()) ? of_file : of_file + "; " + magnitudes_.text();
   }
 
   Results find() override {
@@ -86,25 +110,41 @@ class Magnitudes : public Statistic {
   }
 
   Results of(const std::vector<EventTable> &tables) override {
-    const double bin = magnitudes_.bin, width = bin > 0.0 ? bin : 0.1;
+    expect_events(tables);
     std::vector<MagnitudeCurve> curves;
     for (const EventTable &table : tables) {
       MagnitudeCurve curve;
       curve.label = table.label;
       curve.model = table.info.model;
-      const MagnitudeScale scale = magnitudes_.scale(table.path, table.info);
+      const MagnitudeScale scale = table.earthquakes() && !magnitudes_.of_moment()
+                                       ? MagnitudeScale()
+                                       : magnitudes_.scale(table.path, table.info);
       curve.magnitudes = magnitudes_in(table, scale);
-      curve.curvature = maximum_curvature(curve.magnitudes, width);
+      curve.bin = table.bins.width;
+      // Fine bins that were only recognized have too few events each to show where they are most.
+      const bool given = catalogues.magnitude_bin.value_or(0.0) > 0.0;
+      curve.counting = given ? curve.bin : std::max(curve.bin, 0.1);
+      curve.curvature = maximum_curvature(curve.magnitudes, curve.counting);
       set_completeness(curve, table, scale);
-      curve.b = b_value(curve.magnitudes, curve.completeness, bin);
-      curve.positive = b_positive(curve.magnitudes, curve.completeness, bin);
+      curve.b = b_value(curve.magnitudes, curve.completeness, curve.bin);
+      curve.positive = b_positive(curve.magnitudes, curve.completeness, curve.bin);
       curves.push_back(std::move(curve));
     }
     Results results;
-    results.table("b_values",
-                  magnitude_table(curves, magnitudes_.slope_used(), magnitudes_.text(), bin),
+    results.say(bin_notes(tables));
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      if (const auto left_out = tables[i].events.size() - curves[i].magnitudes.size())
+        results.warn(fmt::format("{}: left out {} of {} events, whose {} is 0 or less",
+                                 tables[i].path, left_out, tables[i].events.size(),
+                                 magnitudes_.of()));
+    if (magnitudes_.for_models() &&
+        std::all_of(tables.begin(), tables.end(), [](auto &table) { return table.earthquakes(); }))
+      results.warn(
+          "earthquakes keep their magnitudes: --magnitude-slope and --magnitude-constant are for "
+          "models");
+    results.table("b_values", magnitude_table(curves, magnitudes_.slope_used(), formula(tables)),
                   ".bvalues");
-    results.figure("frequencies", magnitude_figure(curves, width));
+    results.figure("frequencies", magnitude_figure(curves));
     return results;
   }
 };

@@ -159,16 +159,13 @@ void MagnitudeOptions::add_quantity_to(OptionGroup group) {
 
 void MagnitudeOptions::add_to(OptionGroup group) {
   add_quantity_to(group);
-  group.add("--magnitude-slope", slope,
-            "Magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
-            "logarithm itself",
-            shown("2/3"), finite(), positive());
-  group.add("--magnitude-constant", constant, "Magnitude of an event of size (or moment) 1",
+  group.add(
+      "--magnitude-slope", slope,
+      "Models: magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
+      "logarithm itself",
+      shown("2/3"), finite(), positive());
+  group.add("--magnitude-constant", constant, "Models: magnitude of an event of size (or moment) 1",
             finite());
-  group.add("--magnitude-bin", bin,
-            "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
-            "upwards; 0: none",
-            zero_or_more());
 }
 
 void MagnitudeOptions::check() const {

@@ -77,14 +77,15 @@ struct UnitOptions {
 struct MagnitudeOptions {
   UnitOptions units;
   std::optional<double> slope, constant;
-  double bin = 0.0;  ///< width of the bins; 0: none
 
-  /// Adds --magnitude-slope, --magnitude-constant, --magnitude-bin and add_quantity_to().
+  /// Adds --magnitude-slope, --magnitude-constant and add_quantity_to().
   void add_to(OptionGroup group);
   /// Adds --magnitude-of and the units.
   void add_quantity_to(OptionGroup group);
   /// \throws std::invalid_argument if options contradict each other
   void check() const;
+  /// Whether something was given that earthquakes, which have magnitudes, do not need.
+  bool for_models() const { return units.given() || slope || constant; }
   /// Name of the column from which magnitudes are calculated.
   std::string of() const { return of_moment() ? "slip_moment" : "size"; }
   bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && units.given()); }

@@ -77,6 +77,8 @@ class Rates : public Statistic {
       curves.push_back({tables[i].label, tables[i].info.model, rates_of(releases[i], width)});
       if (releases[i].empty()) continue;
       const double span = releases[i].back().time - releases[i].front().time;
+      if (releases[i].size() > 1 && !(span > 0.0))
+        throw DegenerateData(tables[i].path + ": all times are 0: the events start together");
       double released = 0.0, highest = 0.0;
       for (const ReleaseBin &bin : curves.back().bins) {
         released += bin.released;

@@ -29,7 +29,7 @@ SeriesRegime series_regime(const std::string &path, const SeriesOptions &options
   Extent times;
   result.samples = series.read_some([&](std::int64_t step, double time, double pe) {
     const bool picked = picker.push(step, time, pe, event) && filter.passes(event);
-    if (time < options.from_time) return;
+    if (is_before(time, options.from_time)) return;
     times.add(time);
     meter.add(pe);
     if (!picked) return;
@@ -56,6 +56,7 @@ class Report : public Command {
 
   void add_options(CLI::App *command) override {
     catalogues_.add_to(command);
+    catalogues_.add_magnitude_bin(command);
     OptionGroup group(command);
     group.add("-o,--output", output_, "The page");
     group.add("--title", report_.title, "Heading of the page");

@@ -102,7 +102,7 @@ class Series : public Analysis {
     Event event;
     out.regime = series.about();
     out.regime.samples = series.read_some([&](std::int64_t step, double time, double pe) {
-      if (time >= samples_.from_time) times.add(time);
+      if (!is_before(time, samples_.from_time)) times.add(time);
       if (picker.push(step, time, pe, event) && filter.passes(event) && event.t_end >= times.lo) {
         out.events.row(event.t_start, event.t_end, event.pe_start, event.pe_end, event.size);
         meter.event(std::max(event.t_start, times.lo), event.t_end);

@@ -92,7 +92,7 @@ class Spectrum : public Analysis {
     SpectrumOfSeries spectrum(segment_, series.spacing());
     std::int64_t last_step = -1;
     series.read([&](std::int64_t step, double time, double pe) {
-      if (time < samples_.from_time) return;
+      if (is_before(time, samples_.from_time)) return;
       if (last_step >= 0 && step - last_step != stride)
         throw FileError(fmt::format("{}: step {} after step {}, expected a sample every {} steps",
                                     path, step, last_step, stride));

@@ -27,15 +27,18 @@ double share(std::int64_t part, std::size_t all) {
   return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : std::nan("");
 }
 
+/// Share of the times in [lo, hi). They are differences of times of steps, whose rounding is far
+/// below a millionth of an end.
 double share_within(const std::vector<double> &times, const Range &window) {
-  return share(
-      std::count_if(times.begin(), times.end(),
-                    [&window](double time) { return time >= window.lo && time < window.hi; }),
-      times.size());
+  const double lo = window.lo * (1.0 - 1e-6), hi = window.hi * (1.0 - 1e-6);
+  return share(std::count_if(times.begin(), times.end(),
+                             [lo, hi](double time) { return time >= lo && time < hi; }),
+               times.size());
 }
 
 class Summary : public CatalogueAnalysis {
   std::vector<std::string> parameters_, ranges_, windows_;
+  std::vector<std::pair<std::string, Range>> fitted_;  // name in the columns, sizes
   std::vector<double> thresholds_ = {1e-4, 1e-3, 1e-2, 1e-1};
   double brief_ = 3.0;
   std::optional<double> shortest_;
@@ -48,6 +51,7 @@ class Summary : public CatalogueAnalysis {
 
   void add_options(CLI::App *command) override {
     catalogues.add_to(command);
+    catalogues.add_magnitude_bin(command);
     OptionGroup group(command);
     group.add("--output,-o", output_, "File to write; without it standard output");
     group.add("--parameter", parameters_,
@@ -125,9 +129,8 @@ class Summary : public CatalogueAnalysis {
     add(row, "released", sum_pairwise(sorted.data(), sorted.size()));
     add(row, "in_events", table.share_in_events());
     add(row, "brief", share_of_brief(table));
-    for (const std::string &text : ranges_) {
-      const Range range = parse_range("--range", text);
-      const PowerLawFit fit = fit_power_law(sorted, range.lo, range.hi);
+    for (const auto &[text, range] : fitted_) {
+      const PowerLawFit fit = fit_power_law(sorted, range.lo, range.hi, table.size_step());
       add(row, "exponent_" + text, fit.alpha);
       add(row, "error_" + text, fit.standard_error);
       add(row, "ks_" + text, fit.ks);
@@ -138,12 +141,15 @@ class Summary : public CatalogueAnalysis {
 
   Results find() override {
     const std::vector<EventTable> tables = load_catalogues(catalogues);
+    expect_events(tables);
+    for (const std::string &text : ranges_)
+      fitted_.emplace_back(text, parse_range("--range", text));
     if (ranges_.empty()) {
       double smallest = 0.0;  // a single range, as all rows have the same columns
       for (const EventTable &table : tables)
         smallest = std::max(smallest, Threshold().of(table).size);
       const Range range = paper_range(smallest);
-      ranges_ = {fmt::format("{:g}:{:g}", range.lo, range.hi)};
+      fitted_.emplace_back(fmt::format("{:g}:{:g}", range.lo, range.hi), range);
     }
     std::vector<Row> rows;
     for (const EventTable &table : tables) rows.push_back(row_of(table));
@@ -161,6 +167,7 @@ class Summary : public CatalogueAnalysis {
       out.end_row();
     }
     Results results;
+    for (const std::string &note : bin_notes(tables)) results.warn(note);
     if (output_.empty()) {
       results.say(out.csv());
     } else {

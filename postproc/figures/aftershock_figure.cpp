@@ -132,7 +132,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
                  fmt::format("lt {} dt {}", number, fit.degenerate ? 2 : 1));
   }
   if (number == 0)
-    throw std::runtime_error("no event after a main shock in any catalogue, nothing to draw");
+    throw DegenerateData("no event after a main shock in any catalogue, nothing to draw");
   plot.add(Curves::legend, "keyentry with lines lt 8",
            "lines: Omori-Utsu law; dashed: constant rate");
   plot.add(Curves::legend, "keyentry with boxes fs solid 0.15 noborder lt 8",

@@ -26,7 +26,7 @@ Table aftershock_means(const std::vector<AftershockCurve> &curves);
 
 /// Event rate against the time since the end of a main shock, with Poisson errors, the fitted law,
 /// and the rates of Poisson catalogues (mean and two standard deviations).
-/// \throws std::runtime_error if no curve has a point
+/// \throws DegenerateData if no curve has a point
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves);
 
 }  // namespace LSM::postproc

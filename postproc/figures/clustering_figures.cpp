@@ -58,8 +58,7 @@ Figure in_rows(const std::vector<IntervalCurve> &curves, Table table, int height
   std::vector<const IntervalCurve *> drawn;
   for (const IntervalCurve &curve : curves)
     if (has_clustering(curve) && drawn.size() < 8) drawn.push_back(&curve);
-  if (drawn.empty())
-    throw std::runtime_error("no curve has enough times to tell whether they cluster");
+  if (drawn.empty()) throw DegenerateData("no curve has enough times to tell whether they cluster");
   const auto rows = static_cast<int>(drawn.size());
   std::string script = "set multiplot\n";
   for (int row = 0; row < rows; ++row) {

@@ -24,13 +24,13 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
 
 /// Cumulative number of events against time, with the straight line of a steady rate; periods that
 /// are proposed as steady are shaded. Only the first eight curves with has_clustering() are drawn.
-/// \throws std::runtime_error if there is no such curve
+/// \throws DegenerateData if there is no such curve
 Figure rate_figure(const std::vector<IntervalCurve> &curves);
 
 /// Densities of the inter-event times (over their mean) that follow the shortest, middle and
 /// longest third of them, and the mean time after each eighth beside that of times in random order.
 /// Draws the same curves as rate_figure().
-/// \throws std::runtime_error if there is no such curve
+/// \throws DegenerateData if there is no such curve
 Figure conditional_figure(const std::vector<IntervalCurve> &curves);
 
 }  // namespace LSM::postproc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "interval_figures.h"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -69,7 +70,10 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
     add_fit(plot, number, curve, fit->fit, rejected);
   }
   if (number == 0)
-    throw std::runtime_error("no catalogue has two events above the threshold, nothing to draw");
+    throw DegenerateData(
+        std::any_of(curves.begin(), curves.end(), [](auto &curve) { return curve.n > 0; })
+            ? "all times are 0: the events above the threshold start together, nothing to draw"
+            : "no catalogue has two events above the threshold, nothing to draw");
   if (rescaled)
     plot.add_law(range.lo, range.hi, "0.5*$1**(-0.33)*exp(-$1/1.58)", "lt 8 dt (6,4) lw 2",
                  "earthquakes, Corral (2004)");
@@ -148,8 +152,7 @@ Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              curve.sample.label);
   }
-  if (range.empty())
-    throw std::runtime_error("no catalogue gives gamma for any cut, nothing to draw");
+  if (range.empty()) throw DegenerateData("no catalogue gives gamma for any cut, nothing to draw");
   return plot.figure(std::move(table),
                      axis("x", "shortest time used, over the mean", true, range.lo, range.hi) +
                          axis("y", "γ (δ = 1, maximum likelihood)", false, heights.lo, heights.hi),

@@ -24,7 +24,7 @@ std::string source_of(const IntervalCurve &curve);
 /// Probability densities with Poisson errors, and the fitted densities.
 /// \param rescaled whether the times are divided by their mean
 /// \param width of the picture, see PictureSize
-/// \throws std::runtime_error if no curve has a point
+/// \throws DegenerateData if no curve has a point
 Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width = 900);
 
 /// gamma (with delta = 1) against the shortest time used in the fit, the cut; a row per cut and
@@ -32,7 +32,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
 /// 0.05 of the mean.
 Table cuts_table(const std::vector<IntervalCurve> &curves);
 /// gamma with its errors against the cut over the mean time.
-/// \throws std::runtime_error if no curve has a number
+/// \throws DegenerateData if no curve has a number
 Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width = 900);
 
 /// One of our rows of Table 1.

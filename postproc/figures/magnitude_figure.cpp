@@ -6,13 +6,14 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "numbers.h"
 
 namespace LSM::postproc {
 
 Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
-                      const std::string &formula, double width) {
+                      const std::string &formula) {
   TableOf<MagnitudeCurve> table;
   table.show("catalogue", &MagnitudeCurve::label);
   table.show("magnitudes", [](auto &c) { return c.magnitudes.size(); });
@@ -33,34 +34,38 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
   table.data("label", &MagnitudeCurve::label);
   table.data("degenerate", [](auto &c) { return c.b.why; });
   table.column("degenerate_positive", "degenerate", [](auto &c) { return c.positive.why; });
-  table.comment(fmt::format("{}, bins of {} (0: none)", formula, width));
+  std::vector<double> bins;
+  for (const MagnitudeCurve &curve : curves)
+    if (std::find(bins.begin(), bins.end(), curve.bin) == bins.end()) bins.push_back(curve.bin);
+  table.comment(fmt::format("{}, bins of {} (0: none)", formula, fmt::join(bins, ", ")));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
   for (const MagnitudeCurve &curve : curves) table.row(curve);
   return Table(std::move(table));
 }
 
-Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width) {
+Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
   Table table("curve,model,magnitude,count,from_here_on,label");
   table.comment("count: events in the bin centred at magnitude; from_here_on: in it and above");
   Curves plot("$3");
   Extent magnitudes;
-  double most = 0.0;
+  double most = 0.0, margin = 0.0;
   std::int64_t number = 0;
   for (const MagnitudeCurve &curve : curves) {
     if (curve.magnitudes.empty()) continue;
     ++number;
     most = std::max(most, static_cast<double>(curve.magnitudes.size()));
-    for (const MagnitudeCount &bin : magnitude_counts(curve.magnitudes, width)) {
+    for (const MagnitudeCount &bin : magnitude_counts(curve.magnitudes, curve.counting)) {
       magnitudes.add(bin.magnitude);
       table.row(number, curve.model, bin.magnitude, bin.count, bin.from_here_on, curve.label);
     }
     // The cumulative number counts from the lower edge of the bin, half a width below its centre.
     plot.add(Curves::data, fmt::format("table using (row({0})-{1}):5 with points lt {0}", number,
-                                       text_io::number(0.5 * width)));
+                                       text_io::number(0.5 * curve.counting)));
     plot.add(Curves::data,
              fmt::format("table using ($4 > 0 ? row({0}) : NaN):4 with points lt {0} ps 0.45*point",
                          number));
+    margin = std::max(margin, curve.counting);
     const BValue &b = curve.b;
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events){}", curve.label, curve.magnitudes.size(),
@@ -73,12 +78,12 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width)
                  fmt::format("lt {}", number));
   }
   if (number == 0)
-    throw std::runtime_error("no event with a magnitude in any catalogue, nothing to draw");
+    throw DegenerateData("no event with a magnitude in any catalogue, nothing to draw");
   plot.add(Curves::legend, "keyentry with points lt 8 pt 7",
            "large: events from M on; lines: the fitted laws");
   plot.add(Curves::legend, "keyentry with points lt 8 pt 7 ps 0.45*point",
            "small: events in a bin");
-  const double margin = 0.03 * (magnitudes.hi - magnitudes.lo) + width;
+  margin += 0.03 * (magnitudes.hi - magnitudes.lo);
   return plot.figure(std::move(table), axis("x", "magnitude M", false, magnitudes.lo - margin,
                                             magnitudes.hi + margin) +
                                            axis("y", "events", true, 0.8, most));

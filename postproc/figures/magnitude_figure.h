@@ -20,20 +20,20 @@ struct MagnitudeCurve {
   std::string completeness_text;  ///< where the completeness comes from
   double curvature = 0.0;         ///< magnitude of completeness by maximum curvature
   BValue b, positive;
+  double bin = 0.0;       ///< width of the bins of the magnitudes; 0: none
+  double counting = 0.1;  ///< width of the bins in which they are counted and drawn, > 0
 };
 
 /// Magnitudes of completeness and b-values, a row per catalogue.
 /// \param slope magnitudes per decade of size
 /// \param formula of the magnitudes, for readers of the table
-/// \param width of the bins; 0: none
 Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
-                      const std::string &formula, double width);
+                      const std::string &formula);
 
 /// Numbers of events per bin and cumulative numbers of events from each magnitude on, with the
 /// fitted laws.
-/// \param width of the bins, > 0
-/// \throws std::runtime_error if no curve has an event
-Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width);
+/// \throws DegenerateData if no curve has an event
+Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves);
 
 }  // namespace LSM::postproc
 

@@ -31,7 +31,7 @@ Figure release_figure(const std::vector<ReleaseCurve> &curves, const ReleaseName
           plots[panel].empty() ? "plot" : ",", number, panel == 0 ? 6 : 8, panel == 0 ? 6 : 8,
           number, panel == 0 ? "title " + quote(curve.label) : "notitle");
   }
-  if (number == 0) throw std::runtime_error("no event in any catalogue, nothing to draw");
+  if (number == 0) throw DegenerateData("no event in any catalogue, nothing to draw");
   const std::string time = axis("x", names.time, false, times.lo, times.hi);
   std::string script = "set multiplot\n" + panel(0.1, 0.97, 0.6, 0.95) + time +
                        axis("y", names.events, true, NAN, NAN) + plots[0] + "\n" +

@@ -24,7 +24,7 @@ struct ReleaseNames {
 };
 
 /// Both rates as points, in a panel each.
-/// \throws std::runtime_error if no curve has an event
+/// \throws DegenerateData if no curve has an event
 Figure release_figure(const std::vector<ReleaseCurve> &curves, const ReleaseNames &names);
 
 }  // namespace LSM::postproc

@@ -99,7 +99,7 @@ Figure rupture_density_figure(const std::vector<RuptureDensity> &densities,
     }
     plot.add_data(number, 7, 8, fmt::format("{} ({} ruptures)", density.label, count));
   }
-  if (number == 0) throw std::runtime_error("no ruptures in any catalogue, nothing to draw");
+  if (number == 0) throw DegenerateData("no ruptures in any catalogue, nothing to draw");
   if (limit > values.lo) {
     add_limit(plot, limit, heights);
     table.comment(fmt::format("detection limit, one bin in one interval: {}", limit));

@@ -23,7 +23,7 @@ struct RuptureDensity {
 
 /// Density of the ruptures by length or by moment.
 /// \param limit smallest moment that can be detected; 0: not known
-/// \throws std::runtime_error if there is nothing to draw
+/// \throws DegenerateData if there is nothing to draw
 Figure rupture_density_figure(const std::vector<RuptureDensity> &densities,
                               RuptureQuantity quantity, double limit);
 

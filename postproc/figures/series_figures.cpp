@@ -13,7 +13,7 @@ namespace LSM::postproc {
 void SeriesRegime::take(const RegimeMeter &meter) {
   try {
     regime = meter.result();
-  } catch (const std::runtime_error &error) {
+  } catch (const DegenerateData &error) {
     why = error.what();
   }
 }
@@ -141,7 +141,7 @@ Figure spectrum_figure(const std::vector<SpectrumCurve> &curves) {
              curve.label);
   }
   if (heights.empty())
-    throw std::runtime_error("the series do not vary, their spectra are 0: nothing to draw");
+    throw DegenerateData("the series do not vary, their spectra are 0: nothing to draw");
   return plot.figure(
       std::move(table),
       axis("x", "Frequency (cycles / model time)", true, frequencies.lo, frequencies.hi) +

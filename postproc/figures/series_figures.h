@@ -50,7 +50,7 @@ struct SpectrumCurve {
 };
 
 /// Power spectra †.
-/// \throws std::runtime_error if all densities are 0
+/// \throws DegenerateData if all densities are 0
 Figure spectrum_figure(const std::vector<SpectrumCurve> &curves);
 
 }  // namespace LSM::postproc

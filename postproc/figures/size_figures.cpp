@@ -139,7 +139,7 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
     if (!scaling.fit.degenerate) add_laws(curves, scaling.fit, number, own);
   }
   if (lengths.empty())
-    throw std::runtime_error("finite-size scaling: no catalogue gives a characteristic size");
+    throw DegenerateData("finite-size scaling: no catalogue gives a characteristic size");
   return curves.figure(
       scaling_table(scalings),
       axis("x",

@@ -56,7 +56,7 @@ void to_json(nlohmann::json &out, const Scaling &scaling);
 
 /// Characteristic size s* against length with error bars, the fitted power law, the constant and,
 /// where it is preferred, the law of growth that saturates.
-/// \throws std::runtime_error if no point can be drawn
+/// \throws DegenerateData if no point can be drawn
 Figure scaling_figure(const std::vector<Scaling> &scalings, int width = 900);
 
 }  // namespace LSM::postproc

@@ -87,14 +87,15 @@ std::string all_of(text_io::Bytes &bytes, const std::string &format) {
 
 /// Passes an event to `use` if it starts within [from, to) and is large enough.
 /// \throws FileError if a number is so large that its square could overflow
-void choose(const Event &event, double from, double to, const CatalogueOptions &options,
+/// \return whether it did
+bool choose(const ReadEvent &event, double from, double to, const CatalogueOptions &options,
             EventTable &table, const UseEvent &use) {
   constexpr double largest = 1e100;
   for (const double number : {event.t_start, event.t_end, event.size, event.slip_moment})
     if (!(std::fabs(number) <= largest))
       throw FileError(fmt::format("{}: event {} has a time or size of {}, expected at most {}",
                                   table.path, event.id, number, largest));
-  if (event.t_start < from || event.t_start >= to)
+  if (is_before(event.t_start, from) || !is_before(event.t_start, to))
     ++table.left_out_time;
   else if (event.size < options.min_size)
     ++table.left_out_small;
@@ -102,7 +103,9 @@ void choose(const Event &event, double from, double to, const CatalogueOptions &
     table.in_events += event.t_end - event.t_start;
     table.last_end = event.t_end;
     use(event);
+    return true;
   }
+  return false;
 }
 
 EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &format,
@@ -131,14 +134,24 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
       ++elsewhere;
       continue;
     }
-    Event event;
+    ReadEvent event;
+    event.id = static_cast<std::int64_t>(table.magnitudes.size()) + 1;
     event.t_start = event.t_end = one.time;
     event.size = size_of_magnitude(one.magnitude);
+    event.earthquake = &one;
     if (table.complete_from == 0.0 || event.size < table.complete_from)
       table.complete_from = event.size;
-    choose(event, options.from_day, options.to_day, options, table, use);
+    if (choose(event, options.from_day, options.to_day, options, table, use))
+      table.magnitudes.push_back(one.magnitude);
   }
+  table.bins = recognized_bins(table.magnitudes);
+  table.bins_given = options.magnitude_bin.has_value();
+  const double of_file = table.bins.width;
+  if (table.bins_given) table.bins.width = *options.magnitude_bin;
   table.complete_from = std::max(table.complete_from, options.min_size);
+  // Of a bin that is wider than those of the file, the part below the smallest magnitude is empty.
+  if (const double wider = table.bins.width - of_file; wider > 0.0 && table.complete_from > 0.0)
+    table.complete_from = size_of_magnitude(magnitude_of_size(table.complete_from) + 0.5 * wider);
   const auto left_out = [&](std::int64_t count, const std::string &what) {
     if (count > 0) table.repairs.push_back(fmt::format("{}: left out {} {}", path, count, what));
   };
@@ -168,10 +181,11 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
+  if (options.bins_for_models) table.bins.width = options.magnitude_bin.value_or(0.0);
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
   const EventConditions where(options.where, table.info, path);
   begin(table);
-  Event event;
+  ReadEvent event;
   while (reader.next(event)) {
     if (!where.hold(event)) {
       ++table.left_out_where;

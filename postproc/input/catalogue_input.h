@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,23 @@ struct CatalogueOptions {
   /// Whether times, from_time and to_time included, are displacements of the driving plate: model
   /// time times driving velocity.
   bool displacement = false;
+  /// Width of the bins of magnitudes, 0: none; without it those that are recognized.
+  std::optional<double> magnitude_bin;
+  bool bins_for_models = false;  ///< whether magnitude_bin is for models as well
 
   /// Adds the arguments for catalogues and the options that select events to a command.
   void add_to(CLI::App *command);
   /// Adds --displacement, for commands whose output does not state a unit of time.
   void add_displacement(CLI::App *command);
+  /// Adds --magnitude-bin, for commands whose results depend on it.
+  /// \param otherwise what is done without it, for the help
+  void add_magnitude_bin(CLI::App *command,
+                         const std::string &otherwise = "the step of the magnitudes in the file");
+};
+
+/// An event as it is read.
+struct ReadEvent : Event {
+  const Earthquake *earthquake = nullptr;  ///< nullptr: of a model
 };
 
 /// Adds --threshold.
@@ -58,7 +71,7 @@ void set_parameter(text_io::Parameters &parameters, const std::string &key,
 /// \param begin called before the first event, with the table as known by then
 /// \return the table, without events
 /// \throws FileError "file:line: what, expected ..."
-using UseEvent = std::function<void(const Event &)>;
+using UseEvent = std::function<void(const ReadEvent &)>;
 using UseTable = std::function<void(const EventTable &)>;
 EventTable read_events(
     const std::string &path, const CatalogueOptions &options, const UseEvent &use,

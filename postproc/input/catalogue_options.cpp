@@ -93,6 +93,15 @@ void CatalogueOptions::add_displacement(CLI::App *command) {
             "velocities †");
 }
 
+void CatalogueOptions::add_magnitude_bin(CLI::App *command, const std::string &otherwise) {
+  OptionGroup(command, "Catalogues")
+      .add("--magnitude-bin", magnitude_bin,
+           "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
+           "upwards; 0: none, magnitudes are continuous. Without it " +
+               otherwise,
+           zero_or_more());
+}
+
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
   group.call<double>(
       "--threshold", [&threshold](double size) { threshold = Threshold(size); },
@@ -120,6 +129,8 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
   if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
     throw std::invalid_argument(
         "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
+  if (quakes == 0 && options.magnitude_bin && !options.bins_for_models)
+    throw std::invalid_argument("--magnitude-bin, but no catalogue is of earthquakes");
   if (quakes == 0 && !options.regions.empty())
     throw std::invalid_argument("--region, but no catalogue is of earthquakes");
   if (quakes == all && (std::isfinite(options.from_time) || std::isfinite(options.to_time)))

@@ -129,6 +129,7 @@ enum Field {
   longitude,
   magnitude,
   type,
+  depth,
   number_of_fields
 };
 
@@ -136,6 +137,7 @@ enum Field {
 struct Record {
   std::array<std::string, number_of_fields> texts = {};
   std::optional<double> at = {};  ///< the time, in formats that have it as a number
+  double depth_per_km = 1.0;
 
   std::string &operator[](Field field) { return texts[field]; }
   const std::string &operator[](Field field) const { return texts[field]; }
@@ -155,7 +157,8 @@ constexpr std::array<std::string_view, number_of_fields> known_names = {
     "latitude lat",
     "longitude lon long lng",
     "mag magnitude mw",
-    "eventtype evtype etype type"};
+    "eventtype evtype etype type",
+    "depth dep depthkm"};
 
 /// A name as in `known_names`.
 std::string plain(std::string_view name) {
@@ -230,6 +233,9 @@ class Collector {
     if (!number(latitude, "latitude", 90.0, event.latitude) ||
         !number(longitude, "longitude", 360.0, event.longitude))
       return;
+    // A depth only goes on to other files.
+    event.depth =
+        text_io::parse(record[depth], event.depth) ? event.depth / record.depth_per_km : NAN;
     if (is_no_earthquake(record[type]))
       ++list_.others[record[type]];
     else if (is_missing(record[magnitude]))
@@ -476,6 +482,7 @@ void read_geojson(std::string_view content, Collector &out) {
     if (coordinates.is_array() && coordinates.size() >= 2) {
       record[longitude] = text_of(coordinates[0]);
       record[latitude] = text_of(coordinates[1]);
+      if (coordinates.size() > 2) record[depth] = text_of(coordinates[2]);
     }
     double milliseconds = 0.0;
     if (text_io::parse(record[time], milliseconds)) record.at = milliseconds / 86400e3;
@@ -504,6 +511,7 @@ void read_scedc(std::string_view content, Collector &out) {
     record[magnitude] = f[5] == "n" ? std::string() : f[4];
     record[latitude] = f[6];
     record[longitude] = f[7];
+    record[depth] = f[8];
     out.add(record, lines.number);
   }
 }
@@ -512,7 +520,7 @@ void read_scedc(std::string_view content, Collector &out) {
 /// others that are not used; NaN for what is missing.
 void read_zmap(std::string_view content, Collector &out) {
   constexpr Field columns[] = {longitude, latitude, year, month,  day,
-                               magnitude, type,     hour, minute, second};
+                               magnitude, depth,    hour, minute, second};
   for (Lines lines{content}; lines.next();) {
     const Fields f = split_blanks(lines.line);
     Record record;
@@ -522,7 +530,6 @@ void read_zmap(std::string_view content, Collector &out) {
       good = text_io::parse(f[i], number) || is_missing(f[i]);
       record[columns[i]] = f[i];
     }
-    record[type].clear();  // the depth, which is not used
     record.at = good ? time_in_parts(record) : std::nullopt;
     if (record.at)
       out.add(record, lines.number);
@@ -579,6 +586,8 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
     record[longitude] = value(origin, "longitude");
     record[magnitude] = value(size, "mag");
     record[type] = text_io::trim(event.child_value("type"));
+    record[depth] = value(origin, "depth");
+    record.depth_per_km = 1000.0;
     if (!found) out.add_unpreferred();
     out.add(record, lines.of(event.offset_debug()));
   }
@@ -593,14 +602,14 @@ std::string_view without_mark(std::string_view content) {
 bool Region::contains(const Earthquake &event) const {
   if (!(event.latitude >= south && event.latitude <= north)) return false;
   if (east - west >= 360.0) return true;
+  // 245.9 is -114.1, but for rounding.
+  constexpr double rounding = 1e-9;
   const auto eastwards = [this](double longitude) {
-    const double turn = std::fmod(longitude - west, 360.0);
+    const double turn = std::fmod(longitude - west + rounding, 360.0);
     return turn < 0.0 ? turn + 360.0 : turn;
   };
-  return eastwards(event.longitude) <= eastwards(east);
+  return eastwards(event.longitude) <= eastwards(east) + rounding;
 }
-
-double size_of_magnitude(double magnitude) { return std::pow(10.0, 1.5 * magnitude); }
 
 std::optional<double> parse_date(std::string_view text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, ahead = 0;

@@ -5,6 +5,7 @@
 #ifndef LSM_POSTPROC_EARTHQUAKES_H
 #define LSM_POSTPROC_EARTHQUAKES_H
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -21,6 +22,7 @@ constexpr std::string_view seismicity = "seismicity";
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC
   double latitude = 0.0, longitude = 0.0;  ///< degrees; NaN if the file has none
+  double depth = NAN;                      ///< km; NaN if the file has none
   double magnitude = 0.0;                  ///< as in the file, of any type
 };
 
@@ -40,10 +42,6 @@ struct Region {
   double west, east, south, north;
   bool contains(const Earthquake &event) const;
 };
-
-/// Size of an earthquake, defined by M = (2/3) log10(size) as for magnitudes of the models: an
-/// energy in units of that of M = 0 (Gutenberg & Richter 1956).
-double size_of_magnitude(double magnitude);
 
 /// Days since 1970-01-01T00:00 UTC of a date and time in ISO 8601 (or with '/' and a blank instead
 /// of '-' and 'T'), such as 1994-01-17, 1994-01-17T12:30:55.39Z, 1994-01-17 04:30:55-08:00. A time

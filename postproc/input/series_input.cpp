@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "event_table.h"
 #include "input_file.h"
 
 namespace LSM::postproc {
@@ -43,9 +44,9 @@ SeriesRegime SeriesInput::about() const {
 std::int64_t SeriesInput::read(const Use &use) {
   std::int64_t step = 0, inside = 0;
   double time = 0.0, pe = 0.0;
-  while (reader_.next(step, time, pe) && time <= options_.to_time) {
+  while (reader_.next(step, time, pe) && !is_before(options_.to_time, time)) {
     if (use) use(step, time, pe);
-    if (time >= options_.from_time) ++inside;
+    if (!is_before(time, options_.from_time)) ++inside;
   }
   if (reader_.torn())
     fmt::print(stderr, "postproc: {}: dropped a truncated last sample: 1\n", path_);

@@ -54,4 +54,27 @@ std::vector<std::string> texts(const Threshold &threshold, const std::vector<Eve
   return lines;
 }
 
+std::vector<std::string> bin_notes(const std::vector<EventTable> &tables) {
+  std::vector<std::string> notes;
+  for (const EventTable &table : tables) {
+    const auto &[width, share, wider, share_of_wider] = table.bins;
+    std::string note;
+    if (table.bins_given && table.earthquakes() && width > 0.0)
+      note = fmt::format("magnitudes in bins of {}, as given", width);
+    else if (!table.bins_given && width > 0.0)
+      note = fmt::format(
+          "magnitudes in bins of {}, of which {}", width,
+          share == 1.0
+              ? "all are multiples"
+              : fmt::format("{:.0f} % are multiples; the others are rounded", 100.0 * share));
+    if (!table.bins_given && wider > 0.0)
+      note += fmt::format(
+          "{}{:.0f} % of the magnitudes are multiples of {}, --magnitude-bin {} "
+          "rounds all to these",
+          note.empty() ? "" : "; ", 100.0 * share_of_wider, wider, wider);
+    if (!note.empty()) notes.push_back(table.label + ": " + note);
+  }
+  return notes;
+}
+
 }  // namespace LSM::postproc

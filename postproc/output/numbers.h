@@ -29,6 +29,8 @@ const char *model_name(std::string_view model);
 std::string text(const SmallestSize &smallest);
 /// Describes the smallest sizes of some catalogues, a line for each different one.
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables);
+/// States the bins of the magnitudes of earthquakes, a line for each of the tables that have them.
+std::vector<std::string> bin_notes(const std::vector<EventTable> &tables);
 
 }  // namespace LSM::postproc
 

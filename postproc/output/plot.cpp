@@ -225,7 +225,14 @@ void check_outputs(const Figure &figure, const PictureOptions &options) {
 }
 
 std::string svg_text(const Figure &figure) {
-  std::string folder = (fs::temp_directory_path() / "postproc-XXXXXX").string();
+  std::error_code none;
+  const fs::path temporary = fs::temp_directory_path(none);
+  if (none) {
+    const char *const given = std::getenv("TMPDIR");
+    throw FileError(fmt::format("folder for temporary files, TMPDIR '{}': {}, expected a folder",
+                                given ? given : "", none.message()));
+  }
+  std::string folder = (temporary / "postproc-XXXXXX").string();
   if (!mkdtemp(folder.data()))
     throw FileError(folder + ": cannot make the folder: " + std::generic_category().message(errno));
   const auto remove = [](const std::string *path) {

@@ -43,6 +43,8 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
               events.kind() == "pe" ? "drops of PE" : events.kind(), events.events.size(),
               fmt::format("{} ≥ {}", events_from(events, threshold), short_number(threshold)),
               starts, short_number(events.share_in_events(), 2), range, events.skipped_lines);
+    for (const std::string &note : bin_notes({events}))
+      below += "<p>" + html_escape(note) + ".</p>\n";
     for (const std::string &repair : events.repairs)
       below += "<p>" + html_escape(events.label + ": " + repair) + "</p>\n";
   }
@@ -86,14 +88,12 @@ std::string parameter_section(const std::vector<EventTable> &tables) {
 }
 
 /// Returns what `draw` returns or, if the data cannot be drawn, a paragraph with the reason. Errors
-/// about files and gnuplot, which do not concern the data, are not caught.
+/// that do not concern the data, about files, folders or gnuplot, are not caught.
 template <class Draw>
 std::string drawn_or_why(Draw &&draw) {
   try {
     return draw();
-  } catch (const FileError &) {
-    throw;
-  } catch (const std::runtime_error &error) {
+  } catch (const DegenerateData &error) {
     return "<p>" + degenerate_html(error.what()) + "</p>\n";
   }
 }
@@ -231,11 +231,12 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
     const char *title;
     Range range;  // The paper prints no ranges. Ours are where its exponents are seen.
   };
-  const bool fault = all.front().info.model == "lsm";
+  const bool fault = all.front().info.model == "lsm", quakes = all.front().earthquakes();
   const std::vector<Printed> printed =
-      fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", paper_range(paper_threshold)}}
-            : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
-                                   {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
+      quakes  ? std::vector<Printed>{}
+      : fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", paper_range(paper_threshold)}}
+              : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
+                                     {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
   const double threshold =
       settings_.threshold.of(all.front()).size;  // is the same for all of a kind
   SizeFitSettings fits;
@@ -264,11 +265,12 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   std::string out =
       kind_part(all.front().kind(), fault ? " of a fault" : " of a chain") +
       densities(tables, settings_.threshold, lines,
-                report_part("sizes caption", {{"figure", fault ? "12" : "13"},
-                                              {"threshold", short_number(threshold)}}));
+                quakes ? "Sizes 10<sup>1.5 M</sup> of the magnitudes M of the files."
+                       : report_part("sizes caption", {{"figure", fault ? "12" : "13"},
+                                                       {"threshold", short_number(threshold)}}));
   if (!fig7.empty()) out += densities(fig7, 0.0, {}, report_part("stiffness caption"));
-  return out + report_part(fault ? "printed fault exponents" : "printed slider exponents") + "\n" +
-         size_fit_table(size_fits).html();
+  if (!quakes) out += report_part(fault ? "printed fault exponents" : "printed slider exponents");
+  return out + "\n" + size_fit_table(size_fits).html();
 }
 
 std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
@@ -362,14 +364,16 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
   for (const EventTable &table : tables)
     if (std::find(kinds.begin(), kinds.end(), table.kind()) == kinds.end())
       kinds.push_back(table.kind());
-  for (const bool fault : {true, false})
+  for (const char *const of : {"lsm", "block-slider", "seismicity"})
     for (const std::string &kind : kinds) {
       std::vector<EventTable> chosen;
       for (const EventTable &table : tables)
-        if ((table.info.model == "lsm") == fault && table.kind() == kind) chosen.push_back(table);
+        if (model_name(table.info.model) == std::string_view(model_name(of)) &&
+            table.kind() == kind)
+          chosen.push_back(table);
       if (chosen.empty()) continue;
-      const std::string heading =
-          std::string(fault ? "Fault" : "Block-slider") + (kind == "pe" ? "" : ": " + kind);
+      std::string heading = model_name(of) + (kind == "pe" ? "" : ": " + kind);
+      heading[0] = static_cast<char>(std::toupper(heading[0]));
       parameters += "<h3>" + heading + "</h3>\n" + parameter_section(chosen);
       const std::string id = fmt::format("model-{}", ++number);
       contents += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, heading);

@@ -278,10 +278,10 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
     if (!(main.size >= rule.main_size)) continue;
     const double from = main.t_start - rule.window, to = main.t_end + rule.window;
     if (from < events.front().t_start || to > events.back().t_start) continue;
-    while (events[earliest].t_start < from) ++earliest;
+    while (is_before(events[earliest].t_start, from)) ++earliest;
     std::size_t last = earliest;
     bool largest = true;
-    for (; largest && last < events.size() && events[last].t_start <= to; ++last)
+    for (; largest && last < events.size() && !is_before(to, events[last].t_start); ++last)
       largest = last == k || events[last].size < main.size ||
                 (events[last].size == main.size && last > k);
     if (!largest) continue;
@@ -292,10 +292,10 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
       if (other.size < rule.least_size || i == k) continue;
       // An event of a catalogue with overlaps may precede the main shock in order and yet start
       // after the main shock has ended.
-      if (other.t_start >= main.t_end + rule.first)
+      if (!is_before(other.t_start, main.t_end + rule.first))
         stack.times.push_back(std::min(other.t_start - main.t_end, rule.window));
       // An event that overlaps with the main shock is neither before nor after it.
-      if (i < k && main.t_start - other.t_end >= rule.first)
+      if (i < k && !is_before(main.t_start - rule.first, other.t_end))
         stack.before.push_back(main.t_start - other.t_end);
     }
   }

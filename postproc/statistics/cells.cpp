@@ -11,8 +11,8 @@
 namespace LSM::postproc {
 
 Cells::Cells(const std::function<double(double)> &survival, const std::vector<double> &required,
-             double n)
-    : n_(n), edges_{required.front()} {
+             double n, bool no_others)
+    : n_(n), no_others_(no_others), edges_{required.front()} {
   double above = survival(required.front());
   for (std::size_t i = 1; i < required.size(); ++i) {
     const double above_next = survival(required[i]);
@@ -31,7 +31,7 @@ void Cells::add(const std::function<double(double)> &survival, double lo, double
   const double most = std::clamp(0.05 * beyond, 1e-3 / n_, 1e-3);
   const double middle = 0.5 * (lo + hi);
   // At a jump of the distribution (of integer data, say) no cell is narrow enough: stop splitting.
-  if (share > most && hi - lo > 1e-9 * (1.0 + std::fabs(lo) + std::fabs(hi))) {
+  if (!no_others_ && share > most && hi - lo > 1e-9 * (1.0 + std::fabs(lo) + std::fabs(hi))) {
     const double above = survival(middle);
     add(survival, lo, above_lo, middle, above);
     add(survival, middle, above, hi, above_hi);

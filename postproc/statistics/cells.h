@@ -24,8 +24,9 @@ class Cells {
   /// \param survival probability of exceeding a value; must not increase
   /// \param required edges that must be present, ascending, including the first and the last one
   /// \param n size of the sample
+  /// \param no_others the required edges are all, as for data in bins of their own
   Cells(const std::function<double(double)> &survival, const std::vector<double> &required,
-        double n);
+        double n, bool no_others = false);
 
   std::size_t size() const { return probabilities_.size(); }
   const std::vector<double> &edges() const { return edges_; }  ///< number of cells + 1
@@ -51,6 +52,7 @@ class Cells {
            double above_hi);
 
   double n_;
+  bool no_others_;
   std::vector<double> edges_, centres_, probabilities_, from_here_;
 };
 

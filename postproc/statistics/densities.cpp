@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "samples.h"
+
 namespace LSM::postproc {
 
 namespace {
@@ -21,10 +23,22 @@ SizeDensity density_of(const EventTable &table, const DensitySettings &settings)
     throw std::invalid_argument(
         fmt::format("{}: sizes from {} to {}: expected 0 <= lower end < upper end", table.label,
                     least, settings.upto));
-  const std::vector<double> sizes = column(table.events, &Event::size);
+  std::vector<double> sizes = column(table.events, &Event::size);
   if (sizes.empty()) return out;
   out.largest = *std::max_element(sizes.begin(), sizes.end());
-  out.bins = log_histogram(sizes, settings.factor, least, settings.upto);
+  if (const double step = table.size_step(); step > 0.0) {
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      sizes[i] = size_of_magnitude(binned(table.magnitudes[i], table.bins.width));
+    const double smallest = std::max(least, *std::min_element(sizes.begin(), sizes.end()));
+    const double first = std::ceil(std::log(smallest) / step - magnitude_tolerance);
+    const double last = std::floor(std::log(settings.upto) / step + magnitude_tolerance);
+    const double edge = std::exp((first - 0.5) * step);
+    const double together = std::max(1.0, std::round(std::log(settings.factor) / step));
+    out.bins =
+        log_histogram(sizes, std::exp(together * step), edge, std::exp((last + 0.5) * step), edge);
+  } else {
+    out.bins = log_histogram(sizes, settings.factor, least, settings.upto);
+  }
   for (const LogBin &bin : out.bins) out.events += bin.count;
   return out;
 }
@@ -36,13 +50,20 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   std::vector<SizeDensity> all;
   double least = std::numeric_limits<double>::infinity();
   bool any = false;
+  Extent sizes;
+  std::size_t events = 0;
+  expect_events(tables);
   for (const EventTable &table : tables) {
     all.push_back(density_of(table, settings));
     least = std::min(least, settings.threshold.of(table).size);
     any = any || !all.back().bins.empty();
+    for (const EventSummary &event : table.events) sizes.add(event.size);
+    events += table.events.size();
   }
+  if (events > 1 && sizes.lo == sizes.hi)
+    throw DegenerateData("all sizes are equal, nothing to draw");
   if (!any)
-    throw std::runtime_error(fmt::format(
+    throw DegenerateData(fmt::format(
         "no bin of sizes from {:.4g} on has an event in any catalogue, nothing to draw", least));
   return all;
 }
@@ -50,9 +71,9 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
 double amplitude_of(const PowerLawFit &law, const SizeDensity &density) {
   // Integral of s^-alpha over the range. Without an upper end, expm1(-infinity) gives the right
   // limit.
-  const double power = 1.0 - law.alpha, logs = std::log(law.hi / law.lo);
+  const double lo = law.lower_end(), power = 1.0 - law.alpha, logs = std::log(law.upper_end() / lo);
   const double integral =
-      std::pow(law.lo, power) * (power == 0.0 ? logs : std::expm1(power * logs) / power);
+      std::pow(lo, power) * (power == 0.0 ? logs : std::expm1(power * logs) / power);
   return static_cast<double>(law.n) / static_cast<double>(density.events) / integral;
 }
 

@@ -31,10 +31,11 @@ struct SizeDensity {
   std::vector<LogBin> bins;  ///< with Poisson errors; empty if no event is in the range
 };
 
-/// Bins the sizes of each catalogue.
-/// \return densities in the order of the catalogues
-/// \throws std::invalid_argument for impossible settings
-/// \throws std::runtime_error if no catalogue has an event in the range
+/// Bins the sizes of each catalogue. Where magnitudes are in bins of their own, a bin of sizes
+/// holds a whole number of these, the nearest to the factor, from the smallest size on: any others
+/// would hold now more, now fewer of them. \return densities in the order of the catalogues \throws
+/// std::invalid_argument for impossible settings \throws DegenerateData if no catalogue has an
+/// event in the range, or all sizes are equal
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
                                         const DensitySettings &settings);
 

@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "files/text.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -53,6 +56,20 @@ std::vector<double> column_from(const EventTable &table, double least,
 std::int64_t events_from(const EventTable &table, double least) {
   return std::count_if(table.events.begin(), table.events.end(),
                        [least](const EventSummary &event) { return event.size >= least; });
+}
+
+void expect_events(const std::vector<EventTable> &tables) {
+  std::int64_t by_time = 0, by_size = 0;
+  for (const EventTable &table : tables) {
+    if (!table.events.empty()) return;
+    by_time += table.left_out_time;
+    by_size += table.left_out_small;
+  }
+  throw DegenerateData(
+      fmt::format("{}: no events{}, expected at least one", tables.front().path,
+                  by_time + by_size == 0
+                      ? ""
+                      : fmt::format(" ({} left out by time, {} by size)", by_time, by_size)));
 }
 
 SmallestSize Threshold::of(const EventTable &table) const {

@@ -5,12 +5,15 @@
 #define LSM_POSTPROC_EVENT_TABLE_H
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "files/catalogue.h"
+#include "magnitudes.h"
 
 namespace LSM::postproc {
 
@@ -22,6 +25,12 @@ struct Range {
   double lo, hi;
 };
 
+/// Whether a time lies before a limit. Times are computed, from steps or from dates, and limits are
+/// typed: those that differ by their rounding only, four units in the last place, are equal.
+inline bool is_before(double time, double limit) {
+  return limit - time > 4.0 * std::numeric_limits<double>::epsilon() * std::fabs(time);
+}
+
 /// One catalogue.
 struct EventTable {
   std::string path, label, region;  ///< region: of earthquakes; else empty
@@ -29,6 +38,12 @@ struct EventTable {
   std::vector<EventSummary> events;  ///< in order of t_start
   /// The largest of the events, as many as were requested, with all columns.
   std::vector<Event> details;
+  /// Of earthquakes, as in the file and in the order of the events, from which their sizes follow;
+  /// empty for models.
+  std::vector<double> magnitudes;
+  /// Bins that estimators take the magnitudes of earthquakes for; of width 0 for models.
+  MagnitudeBins bins;
+  bool bins_given = false;  ///< by the user, not recognized
   double in_events = 0.0;   ///< sum of the durations of all events (model time)
   double last_end = 0.0;    ///< t_end of the last event (model time)
   double model_time = 1.0;  ///< a unit of model time in the unit of the times, see --displacement
@@ -48,6 +63,11 @@ struct EventTable {
 
   /// Whether this is a catalogue of earthquakes: times in days, sizes 10^(1.5 M).
   bool earthquakes() const { return info.model == "seismicity"; }
+  /// Ratio of the sizes in successive bins of magnitudes, as its natural logarithm; 0: no bins, or
+  /// bins too fine to matter.
+  double size_step() const {
+    return bins.width >= 1e-4 ? std::log(size_of_magnitude(bins.width)) : 0.0;
+  }
   /// Unit of the times: "model time" or "days".
   const char *time_unit() const { return earthquakes() ? "days" : "model time"; }
 
@@ -83,6 +103,9 @@ std::vector<double> column(const std::vector<Row> &events, double Part::*number)
 std::vector<double> column_from(const EventTable &table, double least,
                                 double EventSummary::*number);
 std::int64_t events_from(const EventTable &table, double least);
+
+/// \throws DegenerateData if no table has an event, with the number that the options left out
+void expect_events(const std::vector<EventTable> &tables);
 
 /// Size below which events are left out, and the reason for it.
 struct SmallestSize {

@@ -9,17 +9,19 @@
 namespace LSM::postproc {
 
 std::vector<LogBin> log_histogram(const std::vector<double> &values, double factor,
-                                  double threshold, double upto) {
+                                  double threshold, double upto, double origin) {
   if (!(factor >= 1.0001 && std::isfinite(factor)))
     throw std::invalid_argument("log-binning: factor " + std::to_string(factor) +
                                 ", expected a finite number of at least 1.0001");
-  const auto edge = [factor](std::int64_t n) { return std::pow(factor, static_cast<double>(n)); };
+  const auto edge = [=](std::int64_t n) {
+    return origin * std::pow(factor, static_cast<double>(n));
+  };
   const double log_factor = std::log(factor);
   std::map<std::int64_t, std::int64_t> counts;
   for (const double value : values) {
     if (!(value > 0.0 && std::isfinite(value))) continue;
     // Next to an edge, the quotient of the logarithms can be off by one; compare with the edges.
-    auto n = static_cast<std::int64_t>(std::floor(std::log(value) / log_factor));
+    auto n = static_cast<std::int64_t>(std::floor(std::log(value / origin) / log_factor));
     if (value < edge(n))
       --n;
     else if (value >= edge(n + 1))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file log_histogram.h
 /// Probability densities in bins of equal logarithmic width (paper Sect. 4.1, after Corral 2004),
-/// with edges factor^n for every integer n.
+/// with edges factor^n, or origin factor^n, for every integer n.
 #ifndef LSM_POSTPROC_LOG_HISTOGRAM_H
 #define LSM_POSTPROC_LOG_HISTOGRAM_H
 
@@ -31,7 +31,8 @@ constexpr double usual_bin_factor = 1.2589254117941673;
 /// \throws std::invalid_argument unless factor is finite and at least 1.0001
 std::vector<LogBin> log_histogram(const std::vector<double> &values,
                                   double factor = usual_bin_factor, double threshold = 0.0,
-                                  double upto = std::numeric_limits<double>::infinity());
+                                  double upto = std::numeric_limits<double>::infinity(),
+                                  double origin = 1.0);
 
 }  // namespace LSM::postproc
 

@@ -42,7 +42,7 @@ std::vector<double> complete(const std::vector<double> &magnitudes, double compl
                              double width) {
   std::vector<double> kept;
   for (const double m : magnitudes)
-    if (m >= completeness - 0.5 * width) kept.push_back(m);
+    if (reaches(m, completeness - 0.5 * width)) kept.push_back(m);
   return kept;
 }
 
@@ -50,8 +50,39 @@ std::vector<double> complete(const std::vector<double> &magnitudes, double compl
 
 double MagnitudeScale::of(double size) const { return slope * std::log10(size) + constant; }
 
+double size_of_magnitude(double magnitude) { return std::pow(10.0, 1.5 * magnitude); }
+
+double magnitude_of_size(double size) { return std::log10(size) / 1.5; }
+
 double binned(double magnitude, double width) {
-  return width > 0.0 ? width * std::floor(magnitude / width + 0.5) : magnitude;
+  return width > 0.0 ? nearest_decimal(bin_of(magnitude, width) * width) : magnitude;
+}
+
+MagnitudeBins recognized_bins(const std::vector<double> &magnitudes) {
+  const auto n = static_cast<double>(magnitudes.size());
+  const auto share = [&](double width) {
+    const auto of_bins = [width](double m) { return std::fabs(m - binned(m, width)) < 1e-6; };
+    return static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), of_bins)) / n;
+  };
+  MagnitudeBins bins;
+  if (magnitudes.empty()) return bins;
+  const double beyond_chance = std::max(0.25, 0.1 + 1.5 / std::sqrt(n));
+  for (const double width : {0.1, 0.01, 0.001}) {
+    bins.share = share(width);
+    if (bins.share < 0.95) {
+      if (bins.wider > 0.0 || bins.share <= beyond_chance) continue;
+      bins.wider = width;
+      bins.share_of_wider = bins.share;
+      continue;
+    }
+    bins.width = width;
+    if (bins.share == 1.0 && n >= 20.0)
+      for (const double times : {2.0, 5.0, 10.0})
+        if (const double several = nearest_decimal(times * width); share(several) == 1.0)
+          bins.width = several;
+    break;
+  }
+  return bins;
 }
 
 BValue b_value(const std::vector<double> &magnitudes, double completeness, double width) {
@@ -70,7 +101,7 @@ double maximum_curvature(const std::vector<double> &magnitudes, double width) {
   const std::vector<MagnitudeCount> counts = magnitude_counts(magnitudes, width);
   const auto fullest = std::max_element(counts.begin(), counts.end(),
                                         [](auto &a, auto &b) { return a.count < b.count; });
-  return fullest == counts.end() ? NAN : fullest->magnitude + 0.2;
+  return fullest == counts.end() ? NAN : nearest_decimal(fullest->magnitude + 0.2);
 }
 
 std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width) {
@@ -83,15 +114,14 @@ std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitud
                                 text_io::number(*high) + " in bins of " + text_io::number(width) +
                                 ", expected fewer than 1e5 bins: a smaller --magnitude-slope or "
                                 "wider bins");
-  for (const double m : magnitudes)
-    ++counts[static_cast<std::int64_t>(std::floor(m / width + 0.5))];
+  for (const double m : magnitudes) ++counts[static_cast<std::int64_t>(bin_of(m, width))];
   std::vector<MagnitudeCount> out;
   if (counts.empty()) return out;
   auto rest = static_cast<std::int64_t>(magnitudes.size());
   for (std::int64_t bin = counts.begin()->first; bin <= counts.rbegin()->first; ++bin) {
     const auto found = counts.find(bin);
     const std::int64_t count = found == counts.end() ? 0 : found->second;
-    out.push_back({width * static_cast<double>(bin), count, rest});
+    out.push_back({nearest_decimal(static_cast<double>(bin) * width), count, rest});
     rest -= count;
   }
   return out;

@@ -28,8 +28,45 @@ struct MagnitudeScale {
   double of(double size) const;
 };
 
+/// Size of an earthquake, defined by M = (2/3) log10(size) as for the magnitudes of models: an
+/// energy in units of that of M = 0 (Gutenberg & Richter 1956).
+double size_of_magnitude(double magnitude);
+double magnitude_of_size(double size);
+
+/// Magnitudes are decimal numbers, which binary ones only approximate: 0.35 / 0.1 is
+/// 3.4999999999999996. Hence this tolerance, in magnitudes at limits and in widths at the edges of
+/// bins.
+constexpr double magnitude_tolerance = 1e-9;
+
+/// Whether a magnitude is at or above a limit, to magnitude_tolerance.
+inline bool reaches(double magnitude, double limit) {
+  return magnitude >= limit - magnitude_tolerance;
+}
+
+/// Number of the bin of a magnitude: of the nearest multiple of width > 0, halves upwards.
+inline double bin_of(double magnitude, double width) {
+  return std::floor(magnitude / width + 0.5 + magnitude_tolerance);
+}
+/// The double nearest to a number of up to nine decimals, as if it had been typed.
+inline double nearest_decimal(double number) { return std::round(number * 1e9) / 1e9; }
+
 /// Rounds to the nearest multiple of width, halves upwards; width 0: leaves the magnitude as it is.
 double binned(double magnitude, double width);
+
+/// Bins to whose centres magnitudes were rounded before they were written.
+struct MagnitudeBins {
+  double width = 0.0;  ///< 0: none, magnitudes are continuous
+  double share = 0.0;  ///< of the magnitudes that are multiples of width
+  /// A width of which many more magnitudes are multiples than by chance, as agencies change their
+  /// practice, and their share; 0: there is none.
+  double wider = 0.0, share_of_wider = 0.0;
+};
+
+/// Recognizes the bins of a catalogue †: the widest of 0.1, 0.01 and 0.001 of which at least 95 %
+/// of the magnitudes are multiples, or 10, 5 or 2 times that width if all of 20 or more are
+/// multiples of it. `wider` is the widest of the three of which more than a quarter are, and five
+/// standard deviations more than the tenth that are by chance.
+MagnitudeBins recognized_bins(const std::vector<double> &magnitudes);
 
 /// b-value of the Gutenberg-Richter law N(M) ~ 10^(-b M) for M >= completeness.
 struct BValue {
@@ -40,11 +77,12 @@ struct BValue {
   std::string why;  ///< reason, one line
 };
 
-/// Estimates b from the magnitudes at or above completeness (in bins: from the bin centred there
-/// on). Width 0: b = 1 / (ln 10 (mean - completeness)) (Aki); otherwise b = ln(1 + width / (mean -
-/// completeness)) / (ln 10 width) (Tinti & Mulargia), for magnitudes that differ from completeness
-/// by multiples of width. Error: ln 10 b^2 sqrt(sum (M - mean)^2 / (n (n - 1))). No upper limit is
-/// assumed, so a roll-off raises b. Degenerate: fewer than 10 magnitudes, or all equal.
+/// Estimates b from the magnitudes at or above completeness (to magnitude_tolerance; in bins: from
+/// the bin centred there on). Width 0: b = 1 / (ln 10 (mean - completeness)) (Aki); otherwise b =
+/// ln(1 + width / (mean - completeness)) / (ln 10 width) (Tinti & Mulargia), for magnitudes that
+/// differ from completeness by multiples of width. Error: ln 10 b^2 sqrt(sum (M - mean)^2 / (n (n -
+/// 1))). No upper limit is assumed, so a roll-off raises b. Degenerate: fewer than 10 magnitudes,
+/// or all equal.
 BValue b_value(const std::vector<double> &magnitudes, double completeness, double width = 0.0);
 
 /// b-positive: b from the differences between each magnitude and the one before it that are at

@@ -3,7 +3,15 @@
 /// Exponents of power laws by maximum likelihood: density C x^-alpha on [lo, hi], with any real
 /// alpha if hi is finite (Deluca & Corral 2013) and alpha > 1 if hi is infinite (Clauset, Shalizi &
 /// Newman 2009). All functions take the sample in ascending order and do not use values outside
-/// [lo, hi]. The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method;
+/// [lo, hi].
+///
+/// Sizes of earthquakes come from magnitudes that agencies round, to 0.1 or 0.01, so that their
+/// logarithms are multiples of a step. With a step > 0, values are counted in bins centred at these
+/// multiples; [lo, hi] holds the bins whose centres lie in it, the law extends half a bin beyond
+/// the first and the last of them, and likelihoods, distances (at the edges of bins), replicas and
+/// rival laws are those of the counts †. Taken for continuous, such sizes give too steep a law.
+///
+/// The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method;
 /// maximum likelihood is †.
 ///
 /// Sources: Clauset, Shalizi & Newman 2009, SIAM Review 51, 661 (range by Kolmogorov-Smirnov
@@ -32,8 +40,13 @@ struct PowerLawFit {
   double log_likelihood = NAN;
   bool searched = false;   ///< the range was found by search_range()
   double least = 0.0;      ///< lower limit of that search
+  double step = 0.0;       ///< of ln(size) between bins; lo and hi are centres of bins; 0: no bins
   bool degenerate = true;  ///< no usable exponent: alpha, error, ks, likelihood are NaN
   std::string why;         ///< reason, one line
+
+  /// Ends of the law: lo and hi, in bins the outer edges of the first and the last one.
+  double lower_end() const { return lo * std::exp(-0.5 * step); }
+  double upper_end() const { return hi * std::exp(0.5 * step); }
 };
 
 /// Fits the exponent on a given range. The fit is degenerate if fewer than 10 events are in the
@@ -41,7 +54,7 @@ struct PowerLawFit {
 /// (standard error above both 1 and |alpha - 1|).
 /// \throws std::invalid_argument unless the sample is ascending and 0 < lo < hi, with lo finite
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
-                          double hi = std::numeric_limits<double>::infinity());
+                          double hi = std::numeric_limits<double>::infinity(), double step = 0.0);
 
 /// Finds the range whose fit has the smallest Kolmogorov-Smirnov distance, among those with at
 /// least 50 events and a ratio of the ends of at least 10. Both ends are searched † (after Deluca &
@@ -49,7 +62,7 @@ PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
 /// spaced in log x between the extremes of the sample (trying every value would cost the square of
 /// n). The standard error does not include the choice of the range.
 /// \param least smaller values are left out; 0 or less: all positive values are used
-PowerLawFit search_range(const std::vector<double> &sorted, double least = 0.0);
+PowerLawFit search_range(const std::vector<double> &sorted, double least = 0.0, double step = 0.0);
 
 /// Monte Carlo p-value: fraction of synthetic samples that fit as poorly (whose Kolmogorov-Smirnov
 /// distance is at least that of the data), (k + 1) / (replicas + 1). Each replica is fitted as the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "files/text.h"
@@ -10,12 +11,22 @@
 
 namespace LSM::postproc {
 
+namespace {
+
+/// Number of the bin of a time. 0.3 / 0.1 is 2.9999999999999996, and yet 0.3 begins a bin of 0.1.
+double bin_at(double time, double width) {
+  const double bins = time / width;
+  return std::floor(bins + 4.0 * std::numeric_limits<double>::epsilon() * std::fabs(bins));
+}
+
+}  // namespace
+
 std::vector<ReleaseBin> rates_of(const std::vector<Release> &events, double width) {
   if (events.empty()) return {};
   const auto [first, last] = std::minmax_element(events.begin(), events.end(),
                                                  [](auto &a, auto &b) { return a.time < b.time; });
-  const double begin = std::floor(first->time / width);
-  const double count = std::floor(last->time / width) - begin + 1.0;
+  const double begin = bin_at(first->time, width);
+  const double count = bin_at(last->time, width) - begin + 1.0;
   if (!(count <= 1e6))
     throw std::invalid_argument("times from " + text_io::number(first->time) + " to " +
                                 text_io::number(last->time) + " in bins of " +
@@ -26,7 +37,7 @@ std::vector<ReleaseBin> rates_of(const std::vector<Release> &events, double widt
     bins.push_back({(begin + n) * width, (begin + n + 1) * width});
   std::vector<NeumaierSum> sums(bins.size());
   for (const Release &event : events) {
-    const auto n = static_cast<std::size_t>(std::floor(event.time / width) - begin);
+    const auto n = static_cast<std::size_t>(bin_at(event.time, width) - begin);
     ++bins[n].events;
     sums[n].add(event.quantity);
   }

@@ -49,11 +49,11 @@ Regime RegimeMeter::result() const {
   for (const double x : changes_) (x > 0.0 ? rises : falls).push_back(std::fabs(x));
   const double fastest = falls.empty() ? 0.0 : *std::max_element(falls.begin(), falls.end());
   if (changes_.empty())
-    throw std::runtime_error(fmt::format(
+    throw DegenerateData(fmt::format(
         "the series is shorter than two windows of {} time units: too short to tell a regime by",
         r.window));
   if (rises.empty() || !(fastest > 0.0))
-    throw std::runtime_error(
+    throw DegenerateData(
         fmt::format("PE only {} over {} windows of {} time units: no events to tell a regime by",
                     rises.empty() ? "falls" : "rises", r.windows, r.window));
   const auto quantile =

@@ -53,7 +53,7 @@ class RegimeMeter {
   void add(double pe);
   /// Adds an event that was picked.
   void event(double t_start, double t_end);
-  /// \throws std::runtime_error unless PE both rose and fell over a window
+  /// \throws DegenerateData unless PE both rose and fell over a window
   Regime result() const;
 
  private:

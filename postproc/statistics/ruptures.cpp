@@ -54,7 +54,7 @@ LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points) {
   const std::size_t count = points.size();
   const auto n = static_cast<double>(count);
   if (count < 3 || !(gsl_stats_tss(x.data(), 1, count) > 1e-12 * n))
-    throw std::runtime_error(
+    throw DegenerateData(
         fmt::format("{} ruptures for a fit, expected at least 3 of different sizes", count));
   LogFit fit;
   fit.n = static_cast<std::int64_t>(count);
@@ -203,11 +203,10 @@ RuptureRelations rupture_relations(const std::vector<EventTable> &tables) {
   Pairs by_length, fallen, fallen_alone;
   for (const EventTable &table : tables)
     all.catalogues.push_back(scatter_of(table, all, by_length, fallen, fallen_alone));
-  if (all.moments.empty())
-    throw std::runtime_error("nothing to draw, no rupture of positive moment");
+  if (all.moments.empty()) throw DegenerateData("nothing to draw, no rupture of positive moment");
   all.moment_of_length = fit_logarithms(by_length);
   if (fallen.empty())
-    throw std::runtime_error("nothing to draw, no rupture of positive moment during which PE fell");
+    throw DegenerateData("nothing to draw, no rupture of positive moment during which PE fell");
   all.pe_of_moment = fit_logarithms(fallen);
   if (fallen_alone.size() >= 3) all.pe_of_moment_alone = fit_logarithms(fallen_alone);
   return all;

@@ -25,7 +25,7 @@ struct LogFit {
   double ratio = 0.0, ratio_scatter = 0.0;
 };
 /// Fits a line to the logarithms of pairs (x, y), both positive.
-/// \throws std::runtime_error for fewer than three pairs, or if all x are equal
+/// \throws DegenerateData for fewer than three pairs, or if all x are equal
 LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points);
 
 /// For each rupture, whether all others that overlap with it in time have less than a tenth of its
@@ -85,7 +85,7 @@ struct RuptureRelations {
 };
 
 /// Collects and fits the ruptures of all catalogues.
-/// \throws std::runtime_error if there are too few ruptures for a fit
+/// \throws DegenerateData if there are too few ruptures for a fit
 RuptureRelations rupture_relations(const std::vector<EventTable> &tables);
 
 }  // namespace LSM::postproc

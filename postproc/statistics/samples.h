@@ -40,6 +40,12 @@ inline Measured share_of(double share, double samples) {
   return {share, std::sqrt(share * (1.0 - share) / samples)};
 }
 
+/// Data from which a result cannot be computed or drawn, such as too few events. Other errors, of
+/// files and programs, are no DegenerateData.
+struct DegenerateData : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Marks a result as one without numbers and gives the reason.
 template <class Fit>
 Fit without_numbers(Fit fit, std::string why) {

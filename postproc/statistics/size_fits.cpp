@@ -9,8 +9,9 @@
 
 namespace LSM::postproc {
 
-PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least) {
-  if (least < range.hi) return fit_power_law(sorted, std::max(range.lo, least), range.hi);
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least,
+                     double step) {
+  if (least < range.hi) return fit_power_law(sorted, std::max(range.lo, least), range.hi, step);
   PowerLawFit none;
   none.lo = range.lo;
   none.hi = range.hi;
@@ -23,13 +24,13 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
   for (std::size_t i = 0; i < tables.size(); ++i) {
     std::vector<double> sorted = column(tables[i].events, &Event::size);
     std::sort(sorted.begin(), sorted.end());
-    const double least = tables[i].complete_from;
+    const double least = tables[i].complete_from, step = tables[i].size_step();
     std::vector<PowerLawFit> laws;
     const double smallest = settings.threshold.of(tables[i]).size;
-    for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least));
+    for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least, step));
     if (laws.empty() && smallest > 0.0)
-      laws.push_back(fit_from(sorted, paper_range(smallest), least));
-    if (settings.search || laws.empty()) laws.push_back(search_range(sorted, smallest));
+      laws.push_back(fit_from(sorted, paper_range(smallest), least, step));
+    if (settings.search || laws.empty()) laws.push_back(search_range(sorted, smallest, step));
     for (const PowerLawFit &law : laws) {
       SizeFit fit;
       fit.label = tables[i].label;

@@ -43,8 +43,10 @@ inline Range paper_range(double smallest) { return {smallest, 1000.0 * smallest}
 /// Fits the exponent on a range without the sizes below `least`, where events are missing: their
 /// absence would look like a flatter law.
 /// \param sorted sizes in ascending order
+/// \param step of their logarithms, see power_law.h
 /// \throws std::invalid_argument for impossible settings
-PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least);
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least,
+                     double step);
 
 /// Fits each catalogue on each range.
 /// \throws std::invalid_argument for impossible settings

@@ -59,9 +59,10 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
   times.replicas = 0;
   std::vector<IntervalCurve> curves = interval_curves({table}, times);
   for (std::size_t k = 0; k < thresholds.size(); ++k)
-    results.push_back({thresholds[k],
-                       fit_from(sizes, paper_range(thresholds[k]), table.complete_from),
-                       std::move(curves[k])});
+    results.push_back(
+        {thresholds[k],
+         fit_from(sizes, paper_range(thresholds[k]), table.complete_from, table.size_step()),
+         std::move(curves[k])});
   return results;
 }
 

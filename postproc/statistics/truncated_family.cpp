@@ -80,7 +80,32 @@ double tilt_of_mean(double mean) {
   return z;
 }
 
-Exponential Exponential::of_mean(double mean, double length) {
+namespace {
+
+// b for a mean of the centres of bins. A value is the lower edge of its bin plus a part that has
+// the same density within the bin, so the mean of the edges is a difference of two means, and
+// likewise the variance.
+double b_of_bins(double mean, double length, double step) {
+  if (mean > 0.5 * length && std::isfinite(length)) return -b_of_bins(length - mean, length, step);
+  const double edges = mean - 0.5 * step;
+  double low = -std::log1p(step / edges) / step;  // that of an infinite length
+  if (!std::isfinite(length)) return low;
+  double high = 0.0, b = low;
+  for (int i = 0; i < 200; ++i) {
+    const double excess = length * tilted_mean(b * length) - step * tilted_mean(b * step) - edges;
+    (excess > 0.0 ? high : low) = b;
+    double next = b - excess / Exponential{length, b, step}.variance();
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (std::fabs(next - b) <= 4e-16 * std::fabs(b)) break;
+    b = next;
+  }
+  return b;
+}
+
+}  // namespace
+
+Exponential Exponential::of_mean(double mean, double length, double step) {
+  if (step > 0.0) return {length, b_of_bins(mean, length, step), step};
   return {length, std::isfinite(length) ? tilt_of_mean(mean / length) / length : -1.0 / mean};
 }
 
@@ -90,7 +115,8 @@ double Exponential::log_z() const {
 }
 
 double Exponential::variance() const {
-  return finite() ? length * length * tilted_variance(b * length) : 1.0 / (b * b);
+  const double whole = finite() ? length * length * tilted_variance(b * length) : 1.0 / (b * b);
+  return step > 0.0 ? whole - step * step * tilted_variance(b * step) : whole;
 }
 
 double Exponential::cdf(double u) const {

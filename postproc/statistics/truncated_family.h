@@ -23,13 +23,18 @@ double tilt_of_mean(double mean);    ///< inverse of tilted_mean; 0 < mean < 1
 /// Density proportional to exp(b u) for u in [0, length]; b < 0 if length is infinite.
 struct Exponential {
   double length, b;
+  /// Width of the bins in which values were counted, a whole number of which fills the length; 0:
+  /// the values themselves are known.
+  double step = 0.0;
 
-  /// Maximum-likelihood fit to a sample with this mean, 0 < mean < length.
-  static Exponential of_mean(double mean, double length);
+  /// Maximum-likelihood fit to a sample with this mean (in bins: of their centres), step / 2 < mean
+  /// < length - step / 2. In bins it is that of the integrals of the density over them, which are a
+  /// geometric series.
+  static Exponential of_mean(double mean, double length, double step = 0.0);
   bool finite() const { return std::isfinite(length); }
   /// Logarithm of the integral of exp(b u); infinite if the integral diverges.
   double log_z() const;
-  double variance() const;
+  double variance() const;  ///< of a value, in bins of their centres: Fisher's information about b
   double cdf(double u) const;
   double quantile(double probability) const;  ///< 0 <= probability < 1
 };

@@ -52,6 +52,70 @@ TEST(Magnitudes, OfSizes) {
   EXPECT_EQ(binned(0.123, 0.0), 0.123);
 }
 
+// A half is a half, whatever the binary approximations of its decimals.
+TEST(Magnitudes, HalvesGoUp) {
+  for (int hundredths = -300; hundredths <= 900; ++hundredths) {
+    const double m = hundredths / 100.0;
+    const auto nearest = [hundredths](int width) {
+      int bin = (2 * hundredths + width) / (2 * width);
+      if ((2 * hundredths + width) % (2 * width) < 0) --bin;
+      return bin * width / 100.0;
+    };
+    EXPECT_EQ(binned(m, 0.1), nearest(10)) << m;
+    EXPECT_EQ(binned(m, 0.2), nearest(20)) << m;
+    EXPECT_EQ(binned(m, 0.01), m);
+  }
+}
+
+TEST(Magnitudes, SizesKeepTheirOrder) {
+  for (int k = -1000; k < 10000; ++k) {
+    const double m = k / 1000.0;
+    EXPECT_LT(size_of_magnitude(m), size_of_magnitude((k + 1) / 1000.0));
+    EXPECT_TRUE(reaches(magnitude_of_size(size_of_magnitude(m)), m));
+    EXPECT_FALSE(reaches(magnitude_of_size(size_of_magnitude(m)), (k + 1) / 1000.0));
+    EXPECT_EQ(nearest_decimal(magnitude_of_size(size_of_magnitude(m))), m);
+  }
+}
+
+TEST(Magnitudes, BinsAreRecognized) {
+  const std::vector<double> all = gutenberg_richter(1.0, 2.0, 5000, 5);
+  const auto in_bins = [&all](double width, std::size_t n) {
+    std::vector<double> out(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
+    for (double &m : out) m = binned(m, width);
+    return out;
+  };
+  for (const double width : {0.001, 0.01, 0.02, 0.1, 0.2, 0.5, 1.0})
+    for (const std::size_t n : {20u, 100u, 5000u}) {
+      const MagnitudeBins found = recognized_bins(in_bins(width, n));
+      EXPECT_EQ(found.width, width) << n;
+      EXPECT_EQ(found.share, 1.0);
+    }
+  EXPECT_EQ(recognized_bins(all).width, 0.0);
+  EXPECT_EQ(recognized_bins({}).width, 0.0);
+  // Few magnitudes may be multiples of 0.2 or 1 by chance.
+  EXPECT_EQ(recognized_bins(in_bins(1.0, 19)).width, 0.1);
+  EXPECT_EQ(recognized_bins({2.0}).width, 0.1);
+  EXPECT_EQ(recognized_bins({2.0, 2.31}).width, 0.01);
+  // Where practice changed, coarser bins are named. One in ten is a multiple of 0.1 by chance.
+  for (const double share : {0.02, 0.1, 0.4, 0.9, 0.99}) {
+    std::vector<double> mixed = in_bins(0.01, 5000);
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+      if (static_cast<double>(i) < share * 5000.0) mixed[i] = binned(mixed[i], 0.1);
+    const MagnitudeBins found = recognized_bins(mixed);
+    const double multiples = share + 0.1 * (1.0 - share);
+    EXPECT_EQ(found.width, share > 0.95 ? 0.1 : 0.01) << share;
+    EXPECT_NEAR(found.share, share > 0.95 ? multiples : 1.0, 0.02);
+    EXPECT_EQ(found.wider, share > 0.3 && share < 0.95 ? 0.1 : 0.0) << share;
+    if (found.wider > 0.0) {
+      EXPECT_NEAR(found.share_of_wider, multiples, 0.02);
+    }
+  }
+  // Numbers in single precision.
+  std::vector<double> floats = in_bins(0.1, 200);
+  for (double &m : floats) m = static_cast<double>(static_cast<float>(m));
+  EXPECT_EQ(recognized_bins(floats).width, 0.1);
+}
+
 TEST(BValue, ErrorIsThatPublishedWithSeismoStats) {
   ASSERT_EQ(published.size(), 100u);
   const BValue result = b_value(published, -0.25);

@@ -193,14 +193,15 @@ TEST(PowerLaw, DistanceIsThatOfEveryPoint) {
   }
 }
 
+void expect_degenerate(const PowerLawFit &fit, const std::string &why) {
+  EXPECT_TRUE(fit.degenerate);
+  EXPECT_TRUE(std::isnan(fit.alpha));
+  EXPECT_TRUE(std::isnan(fit.standard_error));
+  EXPECT_TRUE(std::isnan(fit.ks));
+  EXPECT_NE(fit.why.find(why), std::string::npos) << fit.why;
+}
+
 TEST(PowerLaw, DegenerateFitsGiveNoNumber) {
-  const auto expect_degenerate = [](const PowerLawFit &fit, const std::string &why) {
-    EXPECT_TRUE(fit.degenerate);
-    EXPECT_TRUE(std::isnan(fit.alpha));
-    EXPECT_TRUE(std::isnan(fit.standard_error));
-    EXPECT_TRUE(std::isnan(fit.ks));
-    EXPECT_NE(fit.why.find(why), std::string::npos) << fit.why;
-  };
   expect_degenerate(fit_power_law({1, 2, 3, 4, 5, 6, 7, 8, 9}, 1.0, 10.0), "9 events");
   expect_degenerate(fit_power_law({}, 1.0, 10.0), "0 events");
   expect_degenerate(fit_power_law(std::vector<double>(50, 3.0), 1.0, 10.0), "same size");
@@ -465,6 +466,195 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
     }
   }
   EXPECT_GE(two_sided, 3);
+}
+
+// ---------------------------------------------------------------- sizes in bins
+
+// Sizes of the law on the bins first to last (0: no last one), each moved to the centre of its bin.
+std::vector<double> sample_in_bins(int n, double alpha, double step, int first, int last,
+                                   LSM::Random &random) {
+  const double lo = std::exp((first - 0.5) * step);
+  std::vector<double> sample =
+      power_law_sample(n, alpha, lo, last > 0 ? std::exp((last + 0.5) * step) : infinity, random);
+  for (double &x : sample) x = std::exp(step * std::floor(std::log(x) / step + 0.5));
+  return sample;
+}
+
+constexpr double tenth = 0.3453877639491069;  // of a magnitude: 0.1 x 1.5 ln 10
+
+TEST(PowerLaw, ExponentOfSizesInBins) {
+  LSM::Random random(41);
+  struct Case {
+    double alpha, step;
+    int first, last;
+  };
+  for (const Case &c :
+       {Case{1.67, tenth, 20, 40}, Case{1.67, 2.0 * tenth, 10, 0}, Case{0.8, tenth, -5, 15},
+        Case{1.0, 0.1 * tenth, 200, 400}, Case{2.5, 5.0 * tenth, 4, 0}}) {
+    Coverage coverage(c.alpha);
+    double naive = 0.0, mean = 0.0;
+    const double lo = std::exp(c.first * c.step),
+                 hi = c.last > 0 ? std::exp(c.last * c.step) : infinity;
+    for (int i = 0; i < 300; ++i) {
+      const auto sample = sample_in_bins(400, c.alpha, c.step, c.first, c.last, random);
+      const PowerLawFit fit = fit_power_law(sample, lo, hi, c.step);
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      ASSERT_EQ(fit.n, 400);
+      EXPECT_EQ(fit.lo, lo);
+      coverage.add(fit.alpha, fit.standard_error);
+      mean += fit.alpha / 300.0;
+      naive += fit_power_law(sample, lo, hi).alpha / 300.0;
+    }
+    coverage.expect("alpha = " + std::to_string(c.alpha) + ", step " + std::to_string(c.step));
+    // Taken for continuous, sizes in wide bins have another exponent.
+    if (c.step > 0.3 && c.alpha > 1.5) {
+      EXPECT_GT(naive, mean + 0.05);
+    }
+  }
+}
+
+TEST(PowerLaw, LikelihoodOfSizesInBinsAgreesWithQuadrature) {
+  LSM::Random random(42);
+  const auto sample = sample_in_bins(500, 1.67, tenth, 20, 40, random);
+  const PowerLawFit fit = fit_power_law(sample, 1000.0, 1e6, tenth);
+  const auto log_likelihood = [&](double exponent) {
+    const auto integral = [&](double from, double to) {
+      return integrate([&](double x) { return std::pow(x, -exponent); }, std::exp(from * tenth),
+                       std::exp(to * tenth));
+    };
+    std::map<int, double> log_p;
+    double sum = 0.0;
+    for (double x : sample) {
+      const int bin = static_cast<int>(std::lround(std::log(x) / tenth));
+      if (log_p.count(bin) == 0)
+        log_p[bin] = std::log(integral(bin - 0.5, bin + 0.5) / integral(19.5, 40.5));
+      sum += log_p[bin];
+    }
+    return sum;
+  };
+  const double top = log_likelihood(fit.alpha), h = 0.1 * fit.standard_error;
+  EXPECT_NEAR(fit.log_likelihood, top, 1e-9 * std::fabs(top));
+  const double below = log_likelihood(fit.alpha - h), above = log_likelihood(fit.alpha + h);
+  EXPECT_NEAR((above - below) / (2.0 * h) * fit.standard_error, 0.0, 2e-3);
+  EXPECT_NEAR(1.0 / std::sqrt((2.0 * top - above - below) / (h * h)), fit.standard_error,
+              2e-3 * fit.standard_error);
+}
+
+TEST(PowerLaw, RangesInBins) {
+  LSM::Random random(43);
+  const auto sample = sample_in_bins(2000, 1.67, tenth, 20, 60, random);
+  const PowerLawFit fit = fit_power_law(sample, 1000.0, 1e6, tenth);
+  EXPECT_EQ(fit.lo, 1000.0);
+  EXPECT_NEAR(fit.lower_end(), std::pow(10.0, 1.5 * 1.95), 1e-9);
+  EXPECT_NEAR(fit.upper_end(), std::pow(10.0, 1.5 * 4.05), 1e-6);
+  // Ends between the centres of bins move to the next ones inside.
+  const PowerLawFit inside = fit_power_law(sample, 750.0, 1.3e6, tenth);
+  EXPECT_EQ(inside.alpha, fit.alpha);
+  EXPECT_EQ(inside.n, fit.n);
+  // Where there are no events, the law extends over the range all the same.
+  const PowerLawFit longer = fit_power_law(sample, 10.0, 1e12, tenth);
+  EXPECT_LT(longer.alpha, fit.alpha - 3.0 * fit.standard_error);
+  expect_degenerate(fit_power_law(sample, 1000.0, 1100.0, tenth), "fewer than two bins");
+  expect_degenerate(fit_power_law(std::vector<double>(50, 1000.0), 1000.0, 1e6, tenth),
+                    "same size");
+  const PowerLawFit searched = search_range(sample, 1000.0, tenth);
+  ASSERT_FALSE(searched.degenerate) << searched.why;
+  const double first = std::log(searched.lo) / tenth, last = std::log(searched.hi) / tenth;
+  EXPECT_NEAR(first, std::round(first), 1e-9);
+  EXPECT_NEAR(last, std::round(last), 1e-9);
+  EXPECT_NEAR(searched.alpha, 1.67, 5.0 * searched.standard_error);
+}
+
+TEST(PowerLaw, ProbabilityOfSizesInBinsIsUniformUnderTheNull) {
+  LSM::Random random(44);
+  for (const bool searched : {false, true})
+    for (const int last : {45, 0}) {
+      if (searched && last == 0) continue;
+      int below_tenth = 0, below_half = 0;
+      const int trials = searched ? 60 : 200;
+      for (int i = 0; i < trials; ++i) {
+        const auto sample = sample_in_bins(1500, 1.67, tenth, 20, last, random);
+        const PowerLawFit fit =
+            searched ? search_range(sample, 1000.0, tenth)
+                     : fit_power_law(sample, 1000.0, last > 0 ? std::exp(last * tenth) : infinity,
+                                     tenth);
+        ASSERT_FALSE(fit.degenerate) << fit.why;
+        const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
+        below_tenth += p <= 0.1;
+        below_half += p <= 0.5;
+      }
+      expect_binomial(below_tenth, trials, 0.1, searched ? "0.1, searched" : "0.1");
+      expect_binomial(below_half, trials, 0.5, searched ? "0.5, searched" : "0.5");
+    }
+  // Another law is found out; as continuous sizes, even the right one is rejected.
+  auto mixed = sample_in_bins(1000, 1.3, tenth, 20, 45, random);
+  const auto other = sample_in_bins(1000, 2.5, tenth, 20, 45, random);
+  mixed.insert(mixed.end(), other.begin(), other.end());
+  std::sort(mixed.begin(), mixed.end());
+  EXPECT_LT(p_value(fit_power_law(mixed, 1000.0, 3e6, tenth), mixed, 99, 1), 0.03);
+  const auto right = sample_in_bins(2000, 1.67, tenth, 20, 45, random);
+  EXPECT_EQ(p_value(fit_power_law(right, 1000.0, 3e6), right, 99, 1), 0.01);
+}
+
+// As RatiosAgreeWithQuadrature, with the integrals of the densities over the bins; and no other
+// parameters have a larger likelihood.
+TEST(PowerLaw, RivalsOfSizesInBins) {
+  LSM::Random random(45);
+  for (const double step : {tenth, 3.0 * tenth}) {
+    const int first = 0, last = static_cast<int>(std::lround(30.0 * tenth / step));
+    const double lo = std::exp((first - 0.5) * step), hi = std::exp((last + 0.5) * step);
+    std::vector<double> sample;
+    while (sample.size() < 4000) {
+      const double x = power_law_sample(1, 1.2, lo, hi, random)[0];
+      if (random.uniform() < std::exp(-x / 300.0))
+        sample.push_back(std::exp(step * std::floor(std::log(x) / step + 0.5)));
+    }
+    std::sort(sample.begin(), sample.end());
+    const PowerLawFit fit =
+        fit_power_law(sample, std::exp(first * step), std::exp(last * step), step);
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    std::map<int, double> counts;
+    for (double x : sample) ++counts[static_cast<int>(std::lround(std::log(x) / step))];
+    for (const Comparison &comparison : compare(sample, fit)) {
+      ASSERT_FALSE(comparison.degenerate) << comparison.rival << comparison.why;
+      const auto log_likelihood = [&](std::vector<double> p) {
+        const auto density = [&](double x) {
+          if (comparison.rival == "exponential") return std::exp(-p[0] * x);
+          if (comparison.rival == "log-normal")
+            return std::exp(-std::log(x) - 0.5 * std::pow((std::log(x) - p[0]) / p[1], 2));
+          return std::exp(-p[0] * std::log(x) - x / p[1]);
+        };
+        double sum = 0.0, all = 0.0;
+        for (int bin = first; bin <= last; ++bin) {
+          double part = 0.0;  // by Simpson's rule in ln x
+          for (int i = 0; i <= 400; ++i) {
+            const double x = std::exp((bin - 0.5 + i / 400.0) * step);
+            const double weight = i == 0 || i == 400 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+            part += weight * step / 1200.0 * density(x) * x;
+          }
+          all += part;
+          if (counts.count(bin)) sum += counts[bin] * std::log(part);
+        }
+        return sum - static_cast<double>(sample.size()) * std::log(all);
+      };
+      std::vector<double> p;
+      for (const auto &[name, value] : comparison.parameters) p.push_back(value);
+      const double top = log_likelihood(p);
+      EXPECT_NEAR(comparison.log_likelihood_ratio, fit.log_likelihood - top, 1e-5)
+          << comparison.rival << " " << step;
+      for (std::size_t i = 0; i < p.size(); ++i)
+        for (const double change : {-1e-3, 1e-3}) {
+          std::vector<double> other = p;
+          other[i] *= 1.0 + change;
+          EXPECT_LT(log_likelihood(other), top + 1e-7) << comparison.rival << " " << step;
+        }
+      if (comparison.rival == "power law with exponential cut-off") {
+        EXPECT_NEAR(p[0], 1.2, 0.05);
+        EXPECT_NEAR(std::log(p[1] / 300.0), 0.0, 0.3);
+        EXPECT_LT(comparison.p, 1e-6);
+      }
+    }
+  }
 }
 
 TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {

@@ -1,0 +1,342 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Magnitudes of earthquakes: the file's decimals are compared, binned and written as they are. The reference is exact arithmetic, of decimals."""
+import datetime
+import json
+import lzma
+import math
+import re
+from decimal import Decimal, getcontext
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import table, write_catalogue
+from programs import SOURCE, refused, run
+
+CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
+getcontext().prec = 40
+
+
+def quakes(path, magnitudes, hours=1.0, place="30,-120"):
+    """Writes earthquakes with these magnitudes (texts), one after another."""
+    start = datetime.datetime(1980, 1, 1)
+    lines = [f"{(start + datetime.timedelta(hours=hours * k)).isoformat()}Z,{place},{m}" for k, m in enumerate(magnitudes)]
+    Path(path).write_text("time,latitude,longitude,mag\n" + "\n".join(lines) + "\n")
+    return path
+
+
+def gutenberg_richter(n, width, b=1.0, least=2.0, seed=1):
+    """Texts of magnitudes with this b, rounded to multiples of width from least on."""
+    u = np.random.default_rng(seed).exponential(1 / (b * math.log(10)), n) + least - width / 2
+    return [f"{Decimal(int(math.floor(m / width + 0.5))) * Decimal(str(width))}" for m in u]
+
+
+class Exact:
+    """b, b-positive, completeness and counts of decimal magnitudes, in exact arithmetic up to the logarithms."""
+
+    def __init__(self, magnitudes, width):
+        self.width = Fraction(width)
+        self.all = [self.binned(m, self.width) if self.width else m for m in map(Fraction, magnitudes)]
+
+    @staticmethod
+    def binned(m, width):
+        return math.floor(m / width + Fraction(1, 2)) * width
+
+    def curvature(self, width):
+        counts = {}
+        for m in self.all:
+            counts[self.binned(m, Fraction(width))] = counts.get(self.binned(m, Fraction(width)), 0) + 1
+        return min(m for m in counts if counts[m] == max(counts.values())) + Fraction(1, 5)
+
+    def b_of(self, excess):
+        """b of values above the least possible one."""
+        mean, w = sum(excess) / len(excess), self.width
+        ln10 = Decimal(10).ln()
+        mean, w = (Decimal(x.numerator) / Decimal(x.denominator) for x in (mean, w))
+        return float((1 + w / mean).ln() / (w * ln10) if w else 1 / (mean * ln10)), len(excess)
+
+    def b(self, least):
+        least = Fraction(least)
+        if self.width:  # the lowest bin whose centre is complete
+            least = math.ceil(least / self.width) * self.width
+        kept = [m for m in self.all if m >= least]
+        up = [after - before for before, after in zip(kept, kept[1:]) if after > before]
+        return self.b_of([m - least for m in kept]), self.b_of([step - self.width for step in up]), least
+
+
+@pytest.fixture(scope="module")
+def california():
+    """Texts of the magnitudes, in order of time."""
+    lines = lzma.open(CALIFORNIA, "rt").read().splitlines()
+    names = lines[0].split(",")
+    time, mag = names.index("time"), names.index("mag")
+    fields = [line.split(",") for line in lines[1:]]
+    return [f[mag] for f in sorted(fields, key=lambda f: f[time])]
+
+
+def b_values(postproc, *words):
+    run(postproc, "magnitudes", *words, "--no-picture -o m --overwrite")
+    found = table("m.bvalues.csv")[0]
+    numbers = "completeness", "maximum_curvature", "n", "b", "n_positive", "b_positive"
+    return {key: float(found[key]) if found[key] not in ("", "nan") else None for key in numbers}
+
+
+# ---------------------------------------------------------------- bins and limits
+
+
+def test_halves_go_up(postproc, work):
+    halves = [f"{m / 100:.2f}" for m in (-15, -5, 5, 15, 25, 35, *range(105, 150, 10), *range(205, 300, 10))]
+    quakes("halves.csv", halves)
+    run(postproc, "magnitudes halves.csv --magnitude-bin 0.1 --complete-from -1 --no-picture -o out")
+    bins = {float(row["magnitude"]): int(row["count"]) for row in table("out.csv") if int(row["count"])}
+    assert bins == {k / 10: 1 for k in (-1, 0, 1, 2, 3, 4, *range(11, 16), *range(21, 31))}
+    run(postproc, "export halves.csv --magnitude-bin 0.1 -o e.csv")
+    assert [row["magnitude"].replace("-0", "0", 1) if row["magnitude"] == "-0" else row["magnitude"]
+            for row in table("e.csv")] == [f"{k / 10:g}" for k in (-1, 0, 1, 2, 3, 4, *range(11, 16), *range(21, 31))]
+
+
+@pytest.mark.parametrize("width", ["0", "0.01", "0.1", "0.2"])
+def test_southern_california_is_exact(postproc, work, california, width):
+    exact = Exact(california, width)
+    curvature = exact.curvature(width if width != "0" else "0.1")
+    (b, n), (positive, n_positive), least = exact.b(curvature)
+    found = b_values(postproc, CALIFORNIA, f"--complete-from curvature --magnitude-bin {width}")
+    assert found == {
+        "completeness": float(least), "maximum_curvature": float(curvature), "n": n, "b": pytest.approx(b, rel=1e-12), "n_positive": n_positive,
+        "b_positive": pytest.approx(positive, rel=1e-12)
+    }
+    page = (SOURCE / "postproc/statistics.md").read_text()
+    assert f"| {width} | {float(least):g} | {n} | {b:.6f} | {n_positive} | {positive:.6f} |" in page
+
+
+def test_magnitudes_at_the_limit_count(postproc, work, california):
+    quakes("t24.csv", ["2.4"] * 10 + ["2.7"] * 10)
+    found = b_values(postproc, "t24.csv --complete-from 2.4 --magnitude-bin 0")
+    assert found["n"] == 20 and found["b"] == pytest.approx(1 / (0.15 * math.log(10)), rel=1e-12)
+    assert b_values(postproc, "t24.csv --threshold M2.4 --magnitude-bin 0") == found
+    found = b_values(postproc, CALIFORNIA, "--complete-from 2.4 --magnitude-bin 0")
+    (b, n), _, _ = Exact(california, "0").b("2.4")
+    assert (found["n"], n) == (50301, 50301) and found["b"] == pytest.approx(b, rel=1e-12)
+    assert found["b"] == pytest.approx(1.0669, abs=5e-5)
+
+
+def test_any_typed_limit_keeps_its_magnitude(postproc, work):
+    for k in (*range(0, 100, 7), *range(-9, 0, 2)):
+        low, high = f"{k / 10:.1f}", f"{k / 10 + 1.3:.2f}"
+        quakes("q.csv", [low] * 11 + [high] * 9)
+        assert b_values(postproc, f"q.csv --complete-from={low} --magnitude-bin 0")["n"] == 20, low
+        assert b_values(postproc, f"q.csv --complete-from={low}")["n"] == 20, low
+        found = run(postproc, f"count q.csv --size M{low} --min-magnitude {low} --json -").out
+        assert json.loads(found)["sizes"][0]["events"] == 20, low
+
+
+def test_bins_wider_than_the_step_begin_with_a_whole_one(postproc, work, california):
+    """Half of the bin of M 2 is below the smallest magnitude."""
+    found = b_values(postproc, CALIFORNIA, "--magnitude-bin 0.1")
+    (b, n), _, _ = Exact(california, "0.1").b("2.1")
+    assert (found["completeness"], found["n"]) == (2.1, n) and found["b"] == pytest.approx(b, rel=1e-12)
+    assert b_values(postproc, CALIFORNIA, "--magnitude-bin 0.1 --complete-from 2")["completeness"] == 2
+    assert b_values(postproc, CALIFORNIA, "--magnitude-bin 0.1 --min-magnitude 2.3")["completeness"] == 2.4
+    found = b_values(postproc, CALIFORNIA)
+    (b, n), _, _ = Exact(california, "0.01").b("2")
+    assert (found["completeness"], found["maximum_curvature"], found["n"]) == (2, 2.3, n) and found["b"] == pytest.approx(b, rel=1e-12)
+
+
+# ---------------------------------------------------------------- recognized bins
+
+
+def test_bins_are_recognized(postproc, work):
+    many = gutenberg_richter(400, 0.01)
+    tenths = gutenberg_richter(400, 0.1)
+    for magnitudes, said in ((tenths, "bins of 0.1, of which all are multiples"), (many, "bins of 0.01, of which all are multiples"),
+                             (gutenberg_richter(400, 0.2), "bins of 0.2, of which all are multiples"), (gutenberg_richter(400,
+                                                                                                                          0.5), "bins of 0.5, of"),
+                             (gutenberg_richter(400, 1), "bins of 1, of which all"), (tenths[:5], "bins of 0.1, of which all"),
+                             (tenths + many[:10], r"bins of 0.1, of which 98 % are multiples; the others are rounded"),
+                             (tenths + many,
+                              r"bins of 0.01, of which all are multiples; 5\d % of the magnitudes are multiples of 0.1, --magnitude-bin 0.1 r")):
+        quakes("q.csv", magnitudes)
+        for command in "magnitudes q.csv -o m --no-picture --overwrite", "fit q.csv -o f --no-picture --replicas 0 --overwrite":
+            if len(magnitudes) > 20 or command.startswith("fit"):
+                run(postproc, command).printed(said)
+    run(postproc, "magnitudes q.csv -o m --no-picture --magnitude-bin 0.05 --overwrite").printed("magnitudes in bins of 0.05, as given")
+    continuous = [f"{float(m) + 0.00137 * (k % 61):.5f}" for k, m in enumerate(tenths)]
+    quakes("q.csv", continuous)
+    for command in "magnitudes q.csv -o m --no-picture --overwrite", "fit q.csv -o f --no-picture --replicas 0 --overwrite":
+        assert "in bins of" not in run(postproc, command).out
+    write_catalogue("model.csv", np.arange(100.0), np.geomspace(1e-3, 1, 100))
+    for command in "fit", "histograms", "summary", "report", "explore":
+        refused(postproc, f"{command} model.csv --magnitude-bin 0.1 -o x", "--magnitude-bin, but no catalogue is of earthquakes")
+
+
+def test_magnitudes_in_tenths_have_the_right_b(postproc, work):
+    magnitudes = gutenberg_richter(40000, 0.1)
+    quakes("q.csv", magnitudes)
+    (b, n), (positive, _), _ = Exact(magnitudes, "0.1").b("2")
+    assert b == pytest.approx(1, abs=0.02) and positive == pytest.approx(1, abs=0.03)
+    found = b_values(postproc, "q.csv")
+    assert found["n"] == n == 40000
+    assert found["b"] == pytest.approx(b, rel=1e-12) and found["b_positive"] == pytest.approx(positive, rel=1e-12)
+    # Bins can be overridden: the estimator for continuous magnitudes gives too large a b.
+    assert b_values(postproc, "q.csv --magnitude-bin 0")["b"] == pytest.approx(1.127, abs=0.02)
+
+
+@pytest.mark.parametrize("width", [0.1, 0.2])
+def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
+    """1 + b / 1.5, by fit, summary, report and explore; the law is not rejected."""
+    magnitudes = gutenberg_richter(20000, width)
+    quakes("q.csv", magnitudes)
+    # The likelihood of a geometric series over the bins from M2 to M9 has its maximum where its mean is that of the data.
+    k = np.array([round((float(m) - 2) / width) for m in magnitudes])
+    bins = np.arange(round(7 / width) + 1)
+    low, high = -5.0, 0.0
+    for _ in range(200):
+        z = 0.5 * (low + high)
+        weights = np.exp(z * bins)
+        low, high = (z, high) if (weights * bins).sum() / weights.sum() < k[k <= bins[-1]].mean() else (low, z)
+    exponent = 1 - z / (width * 1.5 * math.log(10))
+    assert exponent == pytest.approx(1 + 1 / 1.5, abs=0.02)
+    run(postproc, "fit q.csv --range M2:M9 --threshold M2 --replicas 200 --no-picture -o f")
+    found = table("f.fits.csv")
+    assert {row["rival"] for row in found} == {"exponential", "log-normal", "power law with exponential cut-off"}
+    assert float(found[0]["exponent"]) == pytest.approx(exponent, rel=1e-9)
+    # Cramer and Rao: the variance of the number of the bin, in units of the logarithm of sizes.
+    share = np.exp(z * bins) / np.exp(z * bins).sum()
+    deviation = math.sqrt((share * bins**2).sum() - (share * bins).sum()**2) * width * 1.5 * math.log(10)
+    assert float(found[0]["standard_error"]) == pytest.approx(1 / (deviation * math.sqrt(len(k))), rel=1e-6)
+    assert float(found[0]["p"]) > 0.02
+    assert all(float(row["ln_likelihood_ratio"]) > -6 for row in found)
+    assert float(next(row for row in found if row["rival"] == "exponential")["ln_likelihood_ratio"]) > 100
+    run(postproc, "fit q.csv --search --threshold M2 --replicas 0 --no-picture -o f --overwrite")
+    searched = next(row for row in table("f.fits.csv") if row["searched"] == "yes")
+    assert abs(float(searched["exponent"]) - exponent) < 4 * float(searched["standard_error"])
+    said = run(postproc, "summary q.csv --threshold M2")
+    row = dict(zip(*[line.split(",") for line in said.out.splitlines() if not line.startswith("#")]))
+    of_summary = [float(value) for name, value in row.items() if name.startswith("exponent_")]
+    assert of_summary == pytest.approx([exponent], abs=0.02) and "magnitudes in bins of" in said.err
+    run(postproc, "explore q.csv -o explore.html")
+    data = json.loads(re.search(r'id="data">(.*?)</script>', Path("explore.html").read_text(), re.S).group(1))
+    laws = [one["law"] for one in data["runs"][0]["kinds"][0]["thresholds"] if one["law"]["n"] > 5000]
+    assert laws and all(abs(law["value"] - exponent) < 4 * law["error"] for law in laws)
+    run(postproc, "report q.csv -o report.html --replicas 20 --interval-replicas 0 --bootstrap 20")
+    page = Path("report.html").read_text()
+    assert f"magnitudes in bins of {width}" in page
+    assert all(abs(float(value) - exponent) < 0.05 for value in re.findall(r"<td>(1\.\d+) ± ", page)[:1])
+
+
+def test_smallest_magnitude_is_not_lost_in_a_name(postproc, work):
+    """The range of summary is exact, whatever the name of its column: 10^(1.5 x 2.1) is 1412.5375..., and 1412.54 in the name."""
+    quakes("q.csv", [f"{2.1 + 0.1 * (k % 7) ** 2 / 9:.1f}" for k in range(300)])
+    smallest = sum(1 for k in range(300) if f"{2.1 + 0.1 * (k % 7) ** 2 / 9:.1f}" == "2.1")
+    assert smallest > 50
+    run(postproc, "fit q.csv --replicas 0 --no-picture -o f")
+    run(postproc, "summary q.csv -o s.csv")
+    row, fit = table("s.csv")[0], table("f.fits.csv")[0]
+    of_summary = next(value for name, value in row.items() if name.startswith("exponent_"))
+    assert float(of_summary) == pytest.approx(float(fit["exponent"]), rel=1e-5)
+
+
+def test_histogram_has_whole_bins_of_magnitudes(postproc, work):
+    magnitudes = gutenberg_richter(5000, 0.1)
+    quakes("q.csv", magnitudes)
+    run(postproc, "histograms q.csv --threshold M2 --no-picture -o h")
+    found = [(float(row["bin_lo"]), float(row["bin_hi"]), int(row["count"])) for row in table("h.csv")]
+    k = [round(10 * float(m)) for m in magnitudes]
+    assert [count for _, _, count in found] == [k.count(bin) for bin in range(20, max(k) + 1)]
+    assert all(hi / lo == pytest.approx(10**0.15) for lo, hi, _ in found)
+    assert found[0][0] == pytest.approx(10**(1.5 * 1.95))
+
+
+# ---------------------------------------------------------------- export
+
+COMCAT = """time,latitude,longitude,depth,mag,type
+1994-01-17T12:30:55.390Z,34.213,-118.537,18.2,6.7,earthquake
+1965-02-03T00:00:00.001Z,-51.5,178.25,,2.4,earthquake
+2020-01-10T00:00:00Z,0,0,10,2.35,earthquake
+"""
+
+
+def test_export_keeps_the_magnitude(postproc, work):
+    quakes("t24.csv", ["2.4"] * 10 + ["2.7"] * 10)
+    for name in "seismostats", "csep", "quakeml":
+        done = run(postproc, f"export t24.csv --time-unit day --start-date 1970-01-01 --magnitude-constant 0 --format {name} -o out.{name}")
+        assert re.search("earthquakes keep their dates and magnitudes", done.err)
+        text = Path(f"out.{name}").read_text()
+        assert "2.3999" not in text and len(re.findall(r"\b2\.4\b", text)) == 10
+    assert json.loads(run(postproc, "count out.quakeml --size M2.4 --json -").out)["sizes"][0]["events"] == 20
+
+
+def test_export_converts_earthquakes(postproc, work):
+    Path("c.csv").write_text(COMCAT)
+    done = run(postproc, "export c.csv -o s.csv")
+    assert done.err == "" and "dates, magnitudes, places and depths of the files" in done.out
+    assert Path("s.csv").read_text().splitlines()[1:] == [
+        f"178.25,-51.5,nan,1965-02-03T00:00:00.001000,2.4,1,0,0,{10 ** (1.5 * 2.4)!r},",
+        f"-118.537,34.213,18.2,1994-01-17T12:30:55.390000,6.7,2,0,0,{10 ** (1.5 * 6.7)!r},",
+        f"0,0,10,2020-01-10T00:00:00.000000,2.35,3,0,0,{10 ** (1.5 * 2.35)!r},"
+    ]
+    run(postproc, "export c.csv -o c.xml --format quakeml --min-magnitude 2.4")
+    text = Path("c.xml").read_text()
+    assert re.findall(r"<depth>\s*<value>(.*?)</value>", text) == ["18200"] and "<type>M" not in text
+    run(postproc, "export c.xml -o again.csv")
+    columns = "longitude latitude depth time magnitude".split()
+    first, again = ([[row[name] for name in columns] for row in table(name)] for name in ("s.csv", "again.csv"))
+    assert again == first[:2]
+    run(postproc, "export c.csv -o c.csep --format csep --region -120/-110/30/40")
+    assert Path("c.csep").read_text() == (
+        "lon,lat,mag,time_string,depth,catalog_id,event_id\n-118.537,34.213,6.7,1994-01-17T12:30:55.390000,18.2,0,1\n")
+    refused(postproc, "export c.csv -o x.csv --unit-length 100", "no --p-speed")
+
+
+@pytest.mark.parametrize("line", ["1650-01-01T00:00:00Z,0,0,3"])
+def test_export_of_years_that_readers_do_not_know(postproc, work, line):
+    Path("q.csv").write_text(f"time,latitude,longitude,mag\n{line}\n")
+    refused(postproc, "export q.csv -o x.csv", "q.csv: event 1 is outside the years 1700 to 2261")
+
+
+# ---------------------------------------------------------------- empty and tied
+
+
+def test_no_events(postproc, work):
+    Path("empty.csv").write_text("time,latitude,longitude,mag\n")
+    quakes("q.csv", ["2.0", "2.1"] * 20)
+    for command in "magnitudes", "fit", "histograms", "intervals", "aftershocks":
+        refused(postproc, f"{command} empty.csv -o o --no-picture", "empty.csv: no events, expected at least one")
+        refused(postproc, f"{command} q.csv -o o --no-picture --min-magnitude 5", r"q.csv: no events \(0 left out by time, 40 by size\)")
+    refused(postproc, "summary empty.csv", "empty.csv: no events")
+
+
+def test_ties(postproc, work):
+    Path("ties.csv").write_text("time,latitude,longitude,mag\n" + "2020-01-01T00:00:00Z,0,0,3\n" * 3)
+    for bins in "", "--magnitude-bin 0":
+        refused(postproc, f"fit ties.csv -o o --no-picture {bins}", "all sizes are equal")
+    refused(postproc, "intervals ties.csv -o o --no-picture", "all times are 0")
+    refused(postproc, "aftershocks ties.csv -o o --no-picture", "ties.csv: all times are 0")
+
+
+# ---------------------------------------------------------------- what counts as the data's fault
+
+
+def test_report_without_a_folder_for_pictures(postproc, work):
+    quakes("q.csv", gutenberg_richter(300, 0.1))
+    quick = "--replicas 0 --interval-replicas 0 --bootstrap 2"
+    run(postproc, f"report q.csv -o page.html {quick}")
+    for folder in "/no/such", "/proc":
+        refused(postproc, f"report q.csv -o page.html {quick}", "TMPDIR|/proc", env={"TMPDIR": folder})
+
+
+# ---------------------------------------------------------------- times that are computed and typed
+
+
+def test_times_at_a_typed_limit(postproc, work):
+    """0.57 x 100 is 56.99999999999999: an event that starts at a step and a limit typed as its time are the same time."""
+    lines = [f"{k + 1},{0.57 * (100 + k)!r},{0.57 * (100 + k) + 0.1!r},{100 + k},{100 + k},0.5,1,0.5" for k in range(10)]
+    Path("c.csv").write_text("# lsm-catalogue 1\n# model = lsm\n# dt = 0.57\nevent_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end\n" +
+                             "\n".join(lines) + "\n")
+    assert 0.57 * 100 < 57
+    for k in range(10):
+        typed = f"{57 + 0.57 * k:.2f}"
+        found = json.loads(run(postproc, f"count c.csv --from {typed} --json -").out)["catalogues"][0]["events"]
+        until = json.loads(run(postproc, f"count c.csv --to {typed} --json -").out)["catalogues"][0]["events"]
+        assert (found, until) == (10 - k, k), typed
