@@ -277,12 +277,15 @@ TEST(Packing, PiecesThatHangOnNothingAreTakenOut) {
   EXPECT_GT(p.loose, 10);
 }
 
-TEST_F(PackingOf40, DiscsAreSortedByPosition) {
+TEST(Packing, DiscsAreSortedBySectionAndKind) {
+  const LSM::Packing p = LSM::make_packing(settings(150.0));
   const auto before = [](const LSM::Disc &a, const LSM::Disc &b) {
-    const int ka = static_cast<int>(a.x / 2.0), kb = static_cast<int>(b.x / 2.0);
-    return ka != kb ? ka < kb : a.y < b.y;
+    const auto place = [](const LSM::Disc &d) {
+      return std::make_tuple(std::floor(d.x / 64.0), d.fault ? 0 : d.plate ? 2 : 1, d.x);
+    };
+    return place(a) < place(b);
   };
-  EXPECT_TRUE(std::is_sorted(packing().discs.begin(), packing().discs.end(), before));
+  EXPECT_TRUE(std::is_sorted(p.discs.begin(), p.discs.end(), before));
 }
 
 LSM::PackingSettings without_faces(double length, bool random_seeds) {
