@@ -20,10 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -41,37 +39,6 @@ static constexpr int BORDER_LINK_TYPE = 2;    // links in the border of a lattic
 static int type_of(const LSM::Disc &disc)
 {
   return (disc.plate ? PLATE : (disc.fault ? FAULT_ZONE : BULK)) + disc.block;
-}
-
-static constexpr double STRETCH = 64.0;    // in largest radii
-
-// Orders discs by sections along the fault; within a section, those that can be in contact come
-// first, then the blocks, then the plates, each sorted by x. Loops over particles, links or
-// contacts in the order of the IDs then find their data in the cache, and each kind is contiguous.
-static void order_along_fault(LSM::Packing &packing, double rmax)
-{
-  const int n = static_cast<int>(packing.discs.size());
-  std::vector<int> order(n), place(n);
-  const double stretch = STRETCH * rmax;
-  const auto key = [stretch](const LSM::Disc &d) {
-    return std::make_tuple(static_cast<int>(d.x / stretch), d.plate ? 2 : (d.fault ? 0 : 1), d.x,
-                           d.y);
-  };
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return key(packing.discs[a]) < key(packing.discs[b]); });
-  std::vector<LSM::Disc> discs;
-  discs.reserve(n);
-  for (int i = 0; i < n; i++) {
-    place[order[i]] = i;
-    discs.push_back(packing.discs[order[i]]);
-  }
-  packing.discs.swap(discs);
-  for (auto &link : packing.links) {
-    const auto ends = std::minmax(place[link.first], place[link.second]);
-    link = {ends.first, ends.second};
-  }
-  std::sort(packing.links.begin(), packing.links.end());
 }
 
 // returns the disc that stores the link first: the smaller one, which has fewer links, so that the
@@ -99,11 +66,7 @@ void CreateLSMFault::command(int narg, char **arg)
     pack(packing, [&regular] { return LSM::make_lattice(regular); });
   } else {
     parse(narg, arg, random);
-    pack(packing, [&random] {
-      LSM::Packing one = LSM::make_packing(random);
-      order_along_fault(one, random.rmax);
-      return one;
-    });
+    pack(packing, [&random] { return LSM::make_packing(random); });
   }
   const double packed = platform::walltime();
 

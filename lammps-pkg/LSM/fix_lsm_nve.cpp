@@ -7,7 +7,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fault/frequency.h"
 #include "files/text.h"
 #include "fix_lsm_velocity.h"
 #include "force.h"
@@ -15,7 +14,9 @@
 #include "integrate.h"
 #include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_ranks.h"
 #include "lsm_scene.h"
+#include "math_eigen.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
@@ -38,7 +39,7 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   time_integrate = 1;
   dynamic_group_allow = 1;
   has_output(&work_viscosity, 2);
-  comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
+  comm_reverse = 6;
 
   LSMKeywordReader in(lmp, "Fix lsm/nve", 3, narg, arg);
   const auto set = [&](int lo, int hi) {
@@ -370,68 +371,70 @@ void FixLSMNVE::post_run()
   leave_clearing_to_integrator();
 }
 
-// Bound of the time step and of the highest frequency of the network of links and contacts, see
-// fault/frequency.h; 0 without springs. Pairs closer than reach_factor times the contact distance
-// count as contacts.
+// Bound of the time step and of the highest frequency of the network of links and contacts; 0
+// without springs. Pairs closer than reach_factor times the contact distance count as contacts.
 //
 // With velocities extrapolated linearly from those of two half steps, the scheme is stable while
 // dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness
 // and viscosity over mass: the recurrence of the oscillator has its first root of modulus 1 there,
-// at -1. The largest of both bound it, and are those of one motion where all retardation times are
-// the same.
+// at -1. Bounds of both bound it.
 double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
 {
-  std::vector<LSM::PairSpring> springs = LSMScene::springs(lmp, reach_factor);
-  const double w2 = highest_eigenvalue(springs);
+  const auto springs = LSMScene::springs(lmp, reach_factor);
+  const double w2 = largest_eigenvalue(springs, false);
   frequency = sqrt(w2);
-  if (!ahead) return w2 > 0.0 ? 2.0 / frequency : 0.0;
-  for (LSM::PairSpring &s : springs) {
-    s.k = s.viscosity;
-    s.kt = 0.0;
-  }
-  const double g = highest_eigenvalue(springs);
+  const double g = ahead ? largest_eigenvalue(springs, true) : 0.0;
   return w2 > 0.0 ? 2.0 / (sqrt(g * g + w2) + g) : 0.0;
 }
 
-double FixLSMNVE::highest_eigenvalue(const std::vector<LSM::PairSpring> &springs)
+// Bound of the largest eigenvalue of stiffness (or viscosity) over mass, the smaller of two. In
+// each spring (u_i - u_j)^2 <= (1 + c) u_i^2 + (1 + 1/c) u_j^2 for any c > 0, after which each
+// particle stands alone. With c = 1 this is the bound by which create_lsm_fault massstep raises
+// masses (fault/packing.h); with c^2 = m_i / m_j it is closer where masses are not raised.
+double FixLSMNVE::largest_eigenvalue(const std::vector<LSMScene::Spring> &springs, bool viscous)
 {
-  LSM::SpringNetwork network;
-  network.dim = comm_forward;
-  network.ghosts = atom->nghost;
-  network.springs = springs;
-  for (int i = 0; i < atom->nlocal; i++) {
-    network.mass.push_back(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-    network.id.push_back(atom->tag[i]);
-  }
-  const auto sum = [this](double mine) { return lsm_total(mine, world); };
-  const auto to_ghosts = [this] { comm->forward_comm(this); };
-  const auto from_ghosts = [this] {
-    if (force->newton) comm->reverse_comm(this);
+  return std::min(largest_eigenvalue(springs, viscous, 0.0),
+                  largest_eigenvalue(springs, viscous, 0.5));
+}
+
+// c is this power of m_i / m_j
+double FixLSMNVE::largest_eigenvalue(const std::vector<LSMScene::Spring> &springs, bool viscous,
+                                     double power)
+{
+  const auto mass = [this](int i) {
+    return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
   };
-  const auto largest =
-      LSM::highest_frequency_squared(network, static_cast<double>(atom->natoms) * network.dim,
-                                     trial, image, to_ghosts, from_ghosts, sum);
-  trial.clear();
-  image.clear();
-  return largest.bound;
-}
-
-int FixLSMNVE::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
-{
-  int m = 0;
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < comm_forward; c++) buf[m++] = trial[list[i] * comm_forward + c];
-  return m;
-}
-
-void FixLSMNVE::unpack_forward_comm(int n, int first, double *buf)
-{
-  std::copy_n(buf, n * comm_forward, trial.data() + first * comm_forward);
+  alone.assign(comm_reverse * (atom->nlocal + atom->nghost), 0.0);
+  for (const LSMScene::Spring &s : springs) {
+    const double along = viscous ? s.viscosity : s.k, across = viscous ? 0.0 : s.kt;
+    const auto add = [&](int i, int j) {
+      const double share = (1.0 + pow(mass(i) / mass(j), power)) / mass(i);
+      double *const m = &alone[comm_reverse * i];
+      for (int n = 0; n < 3; n++) {
+        m[n] += share * (along - across) * s.n[n] * s.n[n];
+        if (n < domain->dimension) m[n] += share * across;
+        m[n + 3] += share * (along - across) * s.n[n] * s.n[(n + 1) % 3];
+      }
+    };
+    add(s.i, s.j);
+    if (s.both) add(s.j, s.i);
+  }
+  if (force->newton) comm->reverse_comm(this);
+  double most = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const m = &alone[comm_reverse * i];
+    const double matrix[3][3] = {{m[0], m[3], m[5]}, {m[3], m[1], m[4]}, {m[5], m[4], m[2]}};
+    double values[3], vectors[3][3];
+    MathEigen::jacobi3(matrix, values, vectors);
+    most = MAX(most, values[0]);
+  }
+  alone.clear();
+  return lsm_largest(most, world);
 }
 
 int FixLSMNVE::pack_reverse_comm(int n, int first, double *buf)
 {
-  std::copy_n(image.data() + first * comm_reverse, n * comm_reverse, buf);
+  std::copy_n(alone.data() + first * comm_reverse, n * comm_reverse, buf);
   return n * comm_reverse;
 }
 
@@ -439,7 +442,7 @@ void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
 {
   int m = 0;
   for (int i = 0; i < n; i++)
-    for (int c = 0; c < comm_reverse; c++) image[list[i] * comm_reverse + c] += buf[m++];
+    for (int c = 0; c < comm_reverse; c++) alone[list[i] * comm_reverse + c] += buf[m++];
 }
 
 void FixLSMNVE::restart(char *buf)

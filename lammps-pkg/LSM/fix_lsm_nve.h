@@ -10,9 +10,9 @@ FixStyle(lsm/nve,FixLSMNVE);
 #ifndef LMP_FIX_LSM_NVE_H
 #define LMP_FIX_LSM_NVE_H
 
-#include "fault/frequency.h"
 #include "lsm_fix_state.h"
 #include "lsm_mover.h"
+#include "lsm_scene.h"
 
 #include <string>
 #include <utility>
@@ -39,8 +39,6 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   /// viscosity.
   double compute_vector(int n) override { return n == 0 ? omega : dt_limit; }
   void restart(char *) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
 
@@ -63,11 +61,11 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
   bool viscous = false;         // some nu is not 0
   double dtv = 0.0, dtf = 0.0;
-  int check = ERROR;                   // what to do when the time step is above the stability limit
-  double omega = 0.0;                  // bound of the highest frequency found at setup
-  double dt_limit = 0.0;               // of a stable time step, 0 if there is none
-  bool continued = false;              // after another run, or from a restart file
-  std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
+  int check = ERROR;            // what to do when the time step is above the stability limit
+  double omega = 0.0;           // bound of the highest frequency found at setup
+  double dt_limit = 0.0;        // of a stable time step, 0 if there is none
+  bool continued = false;       // after another run, or from a restart file
+  std::vector<double> alone;    // symmetric matrix of each particle: xx yy zz xy yz zx
 
   // particles of the group with the same viscosity that are contiguous in memory and in one block
   // (see LSMMover), and dt/2 over the mass of every particle
@@ -102,7 +100,8 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void leave_clearing_to_integrator();
   void clear_all();
   double time_step_limit(double reach_factor, double &frequency);
-  double highest_eigenvalue(const std::vector<LSM::PairSpring> &);
+  double largest_eigenvalue(const std::vector<LSMScene::Spring> &, bool viscous);
+  double largest_eigenvalue(const std::vector<LSMScene::Spring> &, bool viscous, double power);
 };
 
 }    // namespace LAMMPS_NS

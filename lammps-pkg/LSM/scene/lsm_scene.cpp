@@ -68,17 +68,21 @@ namespace LSMScene {
     });
   }
 
-  std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
+  std::vector<Spring> springs(LAMMPS *lmp, double reach_factor)
   {
     Atom *const atom = lmp->atom;
     Force *const force = lmp->force;
-    std::vector<LSM::PairSpring> all;
+    std::vector<Spring> all;
     double **x = atom->x;
 
     auto add = [&](int i, int j, bool newton, double k, double kt, double viscosity) {
-      LSM::PairSpring s{i,        j,  newton || j < atom->nlocal,
-                        k,        kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]},
-                        viscosity};
+      Spring s{i,
+               j,
+               newton || j < atom->nlocal,
+               k,
+               kt,
+               viscosity,
+               {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
       const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
       if (r == 0.0) return;
       for (double &c : s.n) c /= r;

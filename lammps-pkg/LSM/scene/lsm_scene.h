@@ -5,8 +5,7 @@
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H
 
-#include "fault/frequency.h"
-
+#include <array>
 #include <string>
 #include <vector>
 
@@ -35,9 +34,19 @@ namespace LSMScene {
   /// for one that adds to the cells of a grid.
   bool may_rely_on_skin(Modify *);
 
+  /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
+  /// across it, and the viscosity of a dashpot along it. Unless `both`, another rank or image adds
+  /// what j feels.
+  struct Spring {
+    int i, j;
+    bool both;
+    double k, kt, viscosity;
+    std::array<double, 3> n;
+  };
+
   /// Links and contacts of this rank as springs about the present positions; also pairs that are
   /// about to touch.
-  std::vector<LSM::PairSpring> springs(LAMMPS *, double reach_factor);
+  std::vector<Spring> springs(LAMMPS *, double reach_factor);
 
   /// Kinetic energy of this rank's particles that are in none of the groups.
   double kinetic(const Atom *, int group_bits);

@@ -42,8 +42,8 @@ struct Disc {
 /// doc/create_lsm_fault.rst.
 constexpr int HELD_LINKS = 3;
 
-/// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
-/// sorted by i, then j.
+/// The result: discs in sections of 64 rmax along x, in each section first those of the fault zone,
+/// then the blocks, then the plates, each sorted by x; links (i < j) sorted by i, then j.
 struct Packing {
   std::vector<Disc> discs;
   std::vector<std::pair<int, int>> links;
