@@ -292,7 +292,9 @@ TEST(EventPicker, SuddenDropMustExceedTheLoadingOfOneMemory) {
     EventPicker picker(settings(PickerReading::exponential, lambda));
     const std::vector<Event> events = pick(picker, pe);
     ASSERT_EQ(events.size(), drop > least ? 1U : 0U);
-    if (!events.empty()) EXPECT_NEAR(events[0].size, drop - loading, 1e-9 * drop);
+    if (!events.empty()) {
+      EXPECT_NEAR(events[0].size, drop - loading, 1e-9 * drop);
+    }
   }
 }
 
