@@ -28,6 +28,7 @@
 
 #include "event_statistics.h"
 #include "friction_schemes.h"
+#include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "files/pe_series.h"
 #include "numerics/sum.h"

@@ -740,7 +740,7 @@ TEST_F(CatalogueResume, WhatMayChangeKeepsItsValue) {
   write_events(3);
   CatalogueInfo info = some_info();
   info.parameters[2].second = "lsm 0.2";
-  info.parameters.emplace_back("steps", "200");
+  info.parameters.emplace_back("kt", "0.2");
   CatalogueWriter writer;
   EXPECT_THROW(resume(writer, file(), info, 110), FileError);
   info.parameters.back() = {"ranks", "2"};
