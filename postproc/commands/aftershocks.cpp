@@ -64,8 +64,9 @@ class AftershockRates : public Statistic {
     rule.first = first_;
     std::vector<double> sizes = column_from(table, rule.least_size, &Event::size);
     if (sizes.size() < 2)
-      throw DegenerateData(fmt::format("{}: {} events of size {} or larger, expected at least 2",
-                                       table.path, sizes.size(), short_number(rule.least_size)));
+      throw DegenerateData(fmt::format("{}: {} of size {} or larger, expected at least 2",
+                                       table.path, sizes.empty() ? "no events" : "one event",
+                                       short_number(rule.least_size)));
     std::sort(sizes.begin(), sizes.end(), std::greater<double>());
     const auto rank = static_cast<std::size_t>(share_ * static_cast<double>(sizes.size()));
     rule.main_size = main_size_.value_or(sizes[std::min(rank, sizes.size() - 1)]);
@@ -82,7 +83,6 @@ class AftershockRates : public Statistic {
   }
 
   Results of(const std::vector<EventTable> &tables) override {
-    expect_events(tables);
     std::vector<AftershockCurve> curves;
     for (const EventTable &table : tables)
       curves.push_back(

@@ -66,7 +66,7 @@ void expect_events(const std::vector<EventTable> &tables) {
     by_size += table.left_out_small;
   }
   throw DegenerateData(
-      fmt::format("{}: no events{}, expected at least one", tables.front().path,
+      fmt::format("{}: no events{}, nothing to draw: expected at least one", tables.front().path,
                   by_time + by_size == 0
                       ? ""
                       : fmt::format(" ({} left out by time, {} by size)", by_time, by_size)));
