@@ -113,6 +113,8 @@ def numbers(postproc, pe, dt):
         write_series(f"{work}/pe.bin", pe, dt)
         common = dict(check=True, stdout=subprocess.PIPE, text=True)
         subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(MEMORY)], **common)
+        if not np.any(lsm.read_catalogue(f"{work}/picked.csv")["size"] >= 1e-4):
+            return dict(events=0, **dict.fromkeys(("one_in", "exponent", "gamma", "B"), np.nan))
         said = subprocess.run([postproc, "summary", f"{work}/picked.csv", "--range", "1e-4:1e-1", "--threshold", "1e-4"], **common).stdout
     row = next(rows_of(said.splitlines()))
     keys = dict(events="events_0.0001", one_in="mean_time_0.0001", exponent="exponent_1e-4:1e-1", gamma="gamma_0.0001", B="B_0.0001")
