@@ -182,7 +182,7 @@ def statements_of(postproc, path, begin, run=None, threshold=None):
     size, by default that of postproc. \\raises ValueError"""
     path, run = Path(path), Path(run or path)
     drops = events_of(path, begin)
-    if "rupture_length" in drops.dtype.names:
+    if drops.header.get("events") == "ruptures":
         raise ValueError(f"{path}: no drops of PE, expected a catalogue of these")
     history, ruptures = (run.with_name(run.name.replace(".catalogue.csv", ending)) for ending in (".slip.bin", ".ruptures.csv"))
     from_size = ["--threshold", threshold] if threshold else []

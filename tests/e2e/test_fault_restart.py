@@ -134,7 +134,7 @@ def test_killed(lmp):
 
 
 FILES = "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin"
-CALLS = "write", "pwrite64", "rename", "unlink", "ftruncate", "fsync"
+CALLS = "write", "rename", "unlink", "fsync"
 
 
 @pytest.mark.parametrize("call", CALLS)
