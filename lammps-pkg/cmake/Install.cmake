@@ -22,6 +22,7 @@ install(DIRECTORY inputs DESTINATION ${share} PATTERN __pycache__ EXCLUDE REGEX 
 install(DIRECTORY results DESTINATION ${share} FILES_MATCHING REGEX "\\.(md|png|svg|csv|html|xz)$")
 install(DIRECTORY lammps-pkg/doc DESTINATION ${share}/lammps-pkg FILES_MATCHING REGEX "\\.(md|rst)$")
 install(FILES lammps-pkg/README.md DESTINATION ${share}/lammps-pkg)
+install(FILES lammps-pkg/LSM/speed/README.md DESTINATION ${share}/lammps-pkg/LSM/speed)
 install(FILES lammps-pkg/cmake/debian-packages.sh DESTINATION ${share}/lammps-pkg/cmake)
 foreach(folder IN ITEMS slider postproc)
   file(GLOB pages CONFIGURE_DEPENDS ${folder}/*.md)

@@ -393,13 +393,14 @@ def test_tables_that_are_right(plan, work):
 
 def test_settings_are_no_code(plan):
     found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
-    assert found.command(found.runs["c"], "count") == "count c/catalogue.csv --label 'a; touch b'"
+    assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} count c/catalogue.csv --label 'a; touch b' --overwrite"
 
 
 def test_first_loading_has_a_name(plan):
     """Recipes leave out what tables.py and publish.py leave out."""
     found = plan("run,program\nc,slider\n", "values:\n  begin: loading/2\nnumbers:\n  count: count {catalogue} --from {loading} --to {begin}\n")
-    assert found.command(found.runs["c"], "count") == f"count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g}"
+    assert found.command(found.runs["c"], "count") == (
+        f"{found.common['postproc']} count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g} --overwrite")
 
 
 @pytest.mark.parametrize("config, said", [
