@@ -19,7 +19,7 @@ install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm F
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lammps-pkg/styles/own/lsm_version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm OPTIONAL)
 # Scenes, studies, pages and results in the folders of the checkout, so that their links hold.
 install(DIRECTORY inputs DESTINATION ${share} PATTERN __pycache__ EXCLUDE REGEX "\\.(sh|py)$" PERMISSIONS ${for_all})
-install(DIRECTORY results DESTINATION ${share} FILES_MATCHING REGEX "\\.(md|png|svg|csv|html|xz)$")
+install(DIRECTORY results DESTINATION ${share} FILES_MATCHING REGEX "\\.(md|png|svg|csv|html|xz|py)$")
 install(DIRECTORY lammps-pkg/doc DESTINATION ${share}/lammps-pkg FILES_MATCHING REGEX "\\.(md|rst)$")
 install(FILES lammps-pkg/README.md DESTINATION ${share}/lammps-pkg)
 install(FILES lammps-pkg/LSM/speed/README.md DESTINATION ${share}/lammps-pkg/LSM/speed)
