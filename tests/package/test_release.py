@@ -73,9 +73,9 @@ def test_into_lammps(work):
         assert (work / "lammps/doc/src" / page.name).exists() == (page.name != "index.rst")
     scenes = [*(SOURCE / "inputs").glob("*.in"), SOURCE / "inputs/fault.variables"]
     assert {path.name for path in scenes} == {path.name for path in (work / "lammps/examples/PACKAGES/lsm").iterdir()}
-    assert (work /
-            "lammps/cmake/CMakeLists.txt").read_text() == ("set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\nif(PKG_LSM)\n  find_package(ZLIB REQUIRED)\n"
-                                                           "  target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM\nendif()\n")
+    list_file = ("set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\nif(PKG_LSM)\n  find_package(ZLIB REQUIRED)\n"
+                 "  target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM\nendif()\n")
+    assert (work / "lammps/cmake/CMakeLists.txt").read_text() == list_file
 
 
 def test_pages_of_an_installation(lmp, postproc, slider, work):

@@ -399,8 +399,8 @@ def test_settings_are_no_code(plan):
 def test_first_loading_has_a_name(plan):
     """Recipes leave out what tables.py and publish.py leave out."""
     found = plan("run,program\nc,slider\n", "values:\n  begin: loading/2\nnumbers:\n  count: count {catalogue} --from {loading} --to {begin}\n")
-    assert found.command(found.runs["c"],
-                         "count") == (f"{found.common['postproc']} count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g} --overwrite")
+    words = f"count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g}"
+    assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} {words} --overwrite"
 
 
 @pytest.mark.parametrize("config, said", [
