@@ -10,7 +10,6 @@ A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page
 are those of postproc; here are means over packings. A study whose data are not in this folder has a line in place of its table.
 """
 import cmath
-import csv
 import difflib
 import functools
 import math
@@ -30,6 +29,7 @@ import speed_tables  # noqa: E402
 import statements  # noqa: E402
 import walk  # noqa: E402
 from calibrate import number, read  # noqa: E402
+from text_tables import rows_of  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
@@ -73,7 +73,7 @@ def summaries(folder=CAMPAIGN):
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     words = [word for option, texts in (("--range", calibrate.RANGES), ("--window", calibrate.WINDOWS)) for text in texts for word in (option, text)]
     said = run("summary", *paths, "--from", LOADING, "--parameter", "length", "seed", "width", "dt", "lambda", "mass", *words)
-    rows = list(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+    rows = list(rows_of(said.splitlines()))
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
@@ -280,8 +280,7 @@ def stretches_table():
 def preset_paper_table():
     """The catalogues of preset paper, none of whose packings was used to choose its values."""
     paths = [path for some in faults(folder=DAMPING).values() for path in some]
-    said = run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines()
-    all_times = csv.DictReader(line for line in said if not line.startswith("#"))
+    all_times = rows_of(run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines())
     rows = []
     for path, row, one in zip(paths, summaries(DAMPING), all_times):
         starts = [number(event, "t_start") for event in read(path)]

@@ -23,7 +23,9 @@ struct HeaderKey {
   /// not checked.
   double least = 0.0, below = 0.0;
   const char *expected = nullptr;
-  bool may_change = false;  ///< when a run continues from a restart file; the old value stays
+  /// Whether a run that continues may have another value. The old one stays in the file, unless its
+  /// writer replaces the header (ResumableFile::cut_with_new_header).
+  bool may_change = false;
 };
 
 const std::vector<HeaderKey> &header_keys();

@@ -84,8 +84,8 @@ class ResumableFile {
   /// Truncates the file where find_cut() found that the new run begins.
   /// \throws FileError
   void cut() { file_.append(); }
-  /// As cut(); parameters in which the header differs from that of the new run, which find_cut()
-  /// was told to ignore, get their new values.
+  /// As cut(), and the header becomes that of the new run: what may change (header_keys.h) gets its
+  /// new value.
   /// \throws FileError
   void cut_with_new_header() { file_.append(header_, old_header_); }
   /// Closes the file. The destructor does this, too, but ignores errors.
