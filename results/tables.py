@@ -84,12 +84,12 @@ def summaries(folder=CAMPAIGN):
 
 @functools.cache
 def use(length, seed):
-    """Whether the fault was used for the calibration, or is predicted."""
-    return "used" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
+    """Whether the values of the fault were fitted to this packing, or it is predicted."""
+    return "fitted" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
 
 
 def by_length():
-    """Rows of the campaign: {"120, used": rows, "120, predicted": rows, ...}."""
+    """Rows of the campaign: {"120, fitted": rows, "120, predicted": rows, ...}."""
     rows = sorted(summaries(), key=lambda row: (float(row["length"]), use(row["length"], row["seed"]) == "predicted"))
     return grouped(rows, lambda row: f"{row['length']}, {use(row['length'], row['seed'])}")
 
@@ -113,8 +113,10 @@ def shown(value, error=math.nan):
 
 
 def spread(values, error=math.nan):
-    """Mean and standard deviation between packings; for a single packing its own error, if given."""
+    """Mean and standard deviation between packings; two numbers as they are, as two show no deviation; of one its own error, if given."""
     values = [x for x in values if x is not None and math.isfinite(x)]
+    if len(values) == 2:
+        return ", ".join(map(shown, values))
     return shown(statistics.mean(values), statistics.stdev(values) if len(values) > 1 else error) if values else "-"
 
 
@@ -336,7 +338,7 @@ def statements_table():
     for n, (name, text, _, _, tolerance) in enumerate(calibrate.STATEMENTS):
         met = {row["point"] for row in rows if calibrate.deviations(row)[n] <= 1.0}
         out.append([name, text, f"{tolerance:.2g}", str(len(met)), str(sum(calibrate.deviations(row)[n] <= 1.0 for row in accepted))])
-    head = ["used", "statement", "tolerance", f"of {len(ordered)} points meet it", f"of the {len(accepted)} accepted"]
+    head = ["fitted", "statement", "tolerance", f"of {len(ordered)} points meet it", f"of the {len(accepted)} accepted"]
     return table(head, out) + (f"\n\n{stopped} more points stopped, as links were strained by half their length." if stopped else "")
 
 
@@ -348,7 +350,7 @@ def accepted_table():
                                                                                                       for row in rows}) if name[0] == "l"
     ]
     chosen = [row for row in rows if row["point"][0] == "c" and math.isclose(float(row["memory"]), memory, rel_tol=1e-3)]
-    columns = {"point (used)": lambda row: row["point"]} | {key: lambda row, key=key: row[key] for key in VARIED}
+    columns = {"point (fitted)": lambda row: row["point"]} | {key: lambda row, key=key: row[key] for key in VARIED}
     columns |= {name: lambda row, value=value: shown(value(row)) for name, _, value, *_ in calibrate.STATEMENTS}
     columns |= {"distance": lambda row: shown(calibrate.distance(row))}
     return study_table("", columns, [*calibrate.nearest(calibrate.points(POINTS)[0])[0], *longer, *chosen])
@@ -361,7 +363,7 @@ def slider_table():
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(calibrate.deviations(row, statements)[n] <= 1.0 for row in rows) for n in range(len(statements))]
-    head = [f"used: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", "here", "agrees at"]
+    head = [f"fitted: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", "here", "agrees at"]
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
     return table(head, [blocks] + [[name, text, ", ".join(shown(value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
                                    for (name, text, value, *_), n in zip(statements, met)])
