@@ -12,6 +12,7 @@ are those of postproc; here are means over packings. A study whose data are not 
 import cmath
 import difflib
 import functools
+import itertools
 import math
 import re
 import statistics
@@ -88,9 +89,9 @@ def use(length, seed):
     return "fitted" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
 
 
-def by_length():
+def by_length(rows=None):
     """Rows of the campaign: {"120, fitted": rows, "120, predicted": rows, ...}."""
-    rows = sorted(summaries(), key=lambda row: (float(row["length"]), use(row["length"], row["seed"]) == "predicted"))
+    rows = sorted(rows or summaries(), key=lambda row: (float(row["length"]), use(row["length"], row["seed"]) == "predicted"))
     return grouped(rows, lambda row: f"{row['length']}, {use(row['length'], row['seed'])}")
 
 
@@ -99,6 +100,12 @@ def by_length():
 
 def table(head, rows):
     return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def turned(head, rows):
+    """The same table with a column for each of these rows."""
+    lines = list(zip(head, *rows))
+    return table(lines[0], lines[1:])
 
 
 def shown(value, error=math.nan):
@@ -124,6 +131,11 @@ def of(row, key):
     """A number with its error, which is in another column of the row."""
     names = (f"{key}_error", f"{key}_sd", key.replace("exponent_", "error_"), key.replace("gamma_", "gamma_error_"))
     return shown(number(row, key), next((number(row, name) for name in names if name != key and name in row), math.nan))
+
+
+def over(rows, key):
+    """A number over packings, of a single one with its own error."""
+    return of(rows[0], key) if len(rows) == 1 else spread([number(row, key) for row in rows])
 
 
 # ---- the fault
@@ -156,25 +168,44 @@ def scaling_of(kind, least, folder=CAMPAIGN):
 
 def roll_off_table():
     """Scaling of the largest events with the length, as drops of the total PE and as ruptures."""
-    out = []
-    for what, kind, least in (("drops of PE >= 1e-3", "catalogue", "1e-3"), ("ruptures >= 1e-2", "ruptures", "1e-2")):
+    found = {}
+    for what, kind, least in (("s* of drops of PE >= 1e-3", "catalogue", "1e-3"), ("s* of ruptures >= 1e-2", "ruptures", "1e-2")):
         groups, scaling = scaling_of(kind, least)
-        out.append([
-            f"s* of {what}", *(spread([point["s_star"] for _, point in some], some[0][1]["error"]) for some in groups.values()),
-            f"L^({shown(scaling['D'], scaling['D_error'])})", f"{scaling['chi2']:.0f} on {len(scaling['points']) - 2}",
+        found[what] = [spread([point["s_star"] for _, point in some], some[0][1]["error"]) for some in groups.values()]
+        found[what] += [
+            f"L^({shown(scaling['D'], scaling['D_error'])})", f"{scaling['chi2']:.0f}, {len(scaling['points']) - 2}",
             f"{scaling['aicc']:.1f}, {scaling['aicc_constant']:.1f}"
-        ])
-    largest = [spread([number(row, "largest") for row in summaries() if row["length"] == str(length)]) for length in groups]
-    head = ["predicted, length", *map(str, groups), "goes as", "chi^2 on degrees of freedom", "AICc, of a constant"]
-    return table(head, [*out, ["largest drop", *largest, "", "", ""]])
+        ]
+    found["largest drop"] = [spread([number(row, "largest") for row in summaries() if row["length"] == str(length)]) for length in groups]
+    lines = [*map(str, groups), "power law", "chi^2, degrees of freedom", "AICc of it, of a constant"]
+    return table(["length", *found], [[line, *cells] for line, *cells in itertools.zip_longest(lines, *found.values(), fillvalue="")])
+
+
+def lengths_table():
+    """The paper's numbers at each length, and the characteristic size of drops of PE and of ruptures."""
+    columns = {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "gamma": "gamma_0.0001", "one event in": "mean_time_0.0001"}
+    columns |= {"characteristic size of energy drops": "drops", "of ruptures": "ruptures"}
+    groups = by_length(with_sizes(with_sizes(summaries(), "catalogue", "1e-3", "drops"), "ruptures", "1e-2", "ruptures"))
+    rows = [[name, *(over(rows, key) for key in columns.values())] for name, rows in groups.items()]
+    return table(["length", *columns], [["paper", "1.07", "0.995", "15.2", "grows with the length", "-"], *rows])
+
+
+def packing_of(row):
+    return f"{row['length']}, {row['seed']}, {use(row['length'], row['seed'])}"
 
 
 def catalogues_table():
     """The catalogues one by one."""
-    keys = {"time units": "time"} | {f"events >= {size}": f"events_{float(size):g}" for size in SIZES}
-    keys |= EXPONENTS | {f"gamma >= {size}": f"gamma_{float(size):g}" for size in SIZES} | {"mean time": "mean_time_0.0001", "largest": "largest"}
-    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "": lambda row: use(row["length"], row["seed"])}
-    return study_table("", columns | keys, summaries())
+    columns = {
+        "length, packing": packing_of, f"events >= {', '.join(SIZES)}": lambda row: ", ".join(row[f"events_{float(size):g}"] for size in SIZES)
+    }
+    columns |= {f"gamma >= {size}": f"gamma_{float(size):g}" for size in SIZES}
+    return study_table("", columns | {"largest": "largest"}, summaries())
+
+
+def decades_table():
+    """Exponents of the catalogues one by one."""
+    return study_table("", {"length, packing": packing_of} | EXPONENTS, summaries())
 
 
 def ruptures_table():
@@ -187,11 +218,9 @@ def ruptures_table():
             frequent = sum(x > 10 for x in lengths) / time / length * 1e5
             whole = sum(x >= length for x in lengths)
             numbers = shown(fit["exponent"], fit["standard_error"]), shown(point["s_star"], point["error"])
-            out.append([str(length), f"{time:.0f}", f"{frequent:.1f}", *numbers, f"{max(lengths):.0f}", str(whole)])
-    return table([
-        "predicted, length", "time units", "longer than 10, per 1e5 time units and unit of length", "exponent 1e-2 to 1", "s*", "longest",
-        "of the whole fault"
-    ], out)
+            out.append([str(length), f"{frequent:.1f}", *numbers, f"{max(lengths):.0f}", str(whole)])
+    return table(["length", "longer than 10, per 1e5 time units and unit of length", "exponent 1e-2 to 1", "s*", "longest", "of the whole fault"],
+                 out)
 
 
 def same_times_table():
@@ -207,35 +236,44 @@ def same_times_table():
             p += [test["p"] for test in numbers_of("compare", *words)["tests"] if test["quantity"] == "time"] if others else []
         return f"{sum(x < 0.05 for x in p)} of {len(p)}, {statistics.median(p):.2f}" if p else "-"
 
-    return table([f"predicted; pairs with length {next(iter(groups))} that differ (p < 0.05), median p", *map(str, groups)],
-                 [[f"times of events >= {size}", *(text(paths, size) for paths in groups.values())] for size in SIZES])
+    return table(["length", *(f"events >= {size}" for size in SIZES)],
+                 [[str(length), *(text(paths, size) for size in SIZES)] for length, paths in groups.items()])
+
+
+def worded_table(kept):
+    """Numbers of statements.py whose names begin so, over the packings of each length."""
+    rows = [row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)]
+    columns = grouped(rows, lambda row: row["number"])
+    lengths = [length for length in faults() if any(row["length"] == str(length) for row in rows)]
+    cells = [[spread([number(row, "value") for row in some if row["length"] == str(length)]) for some in columns.values()] for length in lengths]
+    printed = [some[0]["expected"] for some in columns.values()]
+    return table(["length", *columns], [["paper", *printed], *([str(length), *line] for length, line in zip(lengths, cells))])
 
 
 def numbers_table():
-    """Numbers of statements.py that the calibration does not use."""
-    kept = ("events in", "B,", "C,", "power d", "slip rate within", "share of the slip")
-    rows = [row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)]
-    return table(["predicted, or not judged", "paper", *map(str, faults())],
-                 [[*key, *(spread([number(row, "value") for row in rows if row["length"] == str(length)]) for length in faults())]
-                  for key, rows in grouped(rows, lambda row: (row["number"], row["expected"])).items()])
+    return worded_table(("events in", "B,", "C,", "power d"))
 
 
-def with_ruptures(folder):
-    """The summaries of a folder with the characteristic size of the ruptures of each run."""
-    points = (point for pairs in scaling_of("ruptures", "1e-2", folder)[0].values() for _, point in pairs)
-    return [{**row, "ruptures": str(point["s_star"]), "ruptures_error": str(point["error"])} for row, point in zip(summaries(folder), points)]
+def slip_shares_table():
+    return worded_table(("slip rate within", "share of the slip"))
+
+
+def with_sizes(rows, kind, least, key, folder=CAMPAIGN):
+    """These summaries of a folder with the characteristic size of the drops of PE or of the ruptures of each run."""
+    points = (point for pairs in scaling_of(kind, least, folder)[0].values() for _, point in pairs)
+    return [{**row, key: str(point["s_star"]), f"{key}_error": str(point["error"])} for row, point in zip(rows, points)]
 
 
 def validation_table():
     """Other widths and time steps compared with the campaign's runs of the same length."""
-    keys = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"}
-    others = with_ruptures(VALIDATION)
-    rows = [row for row in with_ruptures(CAMPAIGN) if row["length"] in {other["length"] for other in others}] + others
+    keys = EXPONENTS | {
+        "gamma >= 1e-4": "gamma_0.0001", "one event in": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"
+    }
+    others, ours = (with_sizes(summaries(folder), "ruptures", "1e-2", "ruptures", folder) for folder in (VALIDATION, CAMPAIGN))
+    rows = [row for row in ours if row["length"] in {other["length"] for other in others}] + others
     groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], f"{float(row['dt']):g}"))
-    return table(
-        ["predicted, length", "width", "time step", "packings", *keys],
-        [[*group, str(len(rows)), *(spread([number(row, key) for row in rows], number(rows[0], f"{key}_error")) for key in keys.values())]
-         for group, rows in groups.items()])
+    names = [f"width {width}, time step {dt} ({len(some)} packing{'s' * (len(some) > 1)})" for (_, width, dt), some in groups.items()]
+    return turned(["", *keys], [[name, *(over(some, key) for key in keys.values())] for name, some in zip(names, groups.values())])
 
 
 def order_of_sums_table():
@@ -248,32 +286,23 @@ def order_of_sums_table():
         tests = numbers_of("compare", CAMPAIGN / path.name, path, "--from", LOADING, "--threshold", "1e-3", "--replicas", 400)["tests"]
         both = [tuple(number(one, key) for one in (before, row)) for key in ("events_0.001", "events_0.01", "largest")]
         fits = [", ".join(of(one, key) for one in (before, row)) for key in ("exponent_1e-3:1e-2", "exponent_1e-2:1e-1", "gamma_0.001")]
-        rows.append([
-            f"{row['length']}, {row['seed']}, {use(row['length'], row['seed'])}", *(f"{a:.4g}, {b:.4g}" for a, b in both), *fits,
-            *(f"{test['p']:.2f}" for test in tests)
-        ])
-    head = [
-        "length, packing, calibration", "events >= 1e-3, before and after", "events >= 1e-2", "largest", "exponent 1e-3 to 1e-2", "1e-2 to 1e-1",
-        "gamma >= 1e-3"
-    ]
-    return table([*head, "p, sizes", "p, times"], rows)
+        rows.append([packing_of(row), *(f"{a:.4g}, {b:.4g}" for a, b in both), *fits, *(f"{test['p']:.2f}" for test in tests)])
+    head = ["length, packing", "events >= 1e-3, before, after", "events >= 1e-2", "largest", "exponent 1e-3 to 1e-2", "1e-2 to 1e-1", "gamma >= 1e-3"]
+    return turned([*head, "p, sizes", "p, times"], rows)
 
 
 def variance_table():
     """Variance of the changes of PE over that for independent stretches, and the correlation of neighbours."""
     groups = {}
     for row in read(FOLDER / "stretches.variance.csv"):
-        groups.setdefault(f"{row['length']}, {row['seed']} ({row['stretches']})", {})[row["lag"]] = f"{row['ratio']} ({row['correlation_1']})"
-    lags = list(next(iter(groups.values())))
-    return table(["predicted; length, packing (stretches)", *(f"over {lag} time units" for lag in lags)],
-                 [[name, *(cells[lag] for lag in lags)] for name, cells in groups.items()])
+        groups.setdefault(f"length {row['length']}, {row['stretches']} stretches", {})[row["lag"]] = f"{row['ratio']}, {row['correlation_1']}"
+    return turned(["over a time of", *next(iter(groups.values()))], [[name, *cells.values()] for name, cells in groups.items()])
 
 
 def stretches_table():
     """Events of the whole fault, of its stretches shifted in time, and of each with a picker of its own."""
-    columns = {"predicted; length, packing": lambda row: f"{row['length']}, {row['seed']}", "PE of": lambda row: row["what"]}
-    columns |= {"events >= 1e-4": "events", "mean time": "mean_time", "gamma": "gamma", "gamma >= 1e-3": "gamma_1e-3"}
-    return study_table("stretches.events.csv", columns | {"exponent": "exponent", "largest": "largest"})
+    columns = {"length: energy of": lambda row: f"{row['length']}: {row['what']}", "one event in": "mean_time", "gamma": "gamma"}
+    return study_table("stretches.events.csv", columns | {"gamma >= 1e-3": "gamma_1e-3", "exponent": "exponent", "largest": "largest"})
 
 
 # ---- damping
@@ -383,14 +412,13 @@ def ground_table():
         return ", ".join(f"{periods.rayleigh_z(*periods.slips_of(path, calibrate.LOADING, 1e-2), 1.0):.1f}" for path in paths)
 
     columns = {
-        "length (predicted)": lambda row: row["length"],
-        "structure factor of each face at wavelength 1, grid (two packings)": lambda row: factors("grid", row["length"]),
+        "length": lambda row: row["length"], "structure factor of the faces, grid": lambda row: factors("grid", row["length"]),
         "random places": lambda row: factors("random", row["length"]), "Z at a slip of 1, grid": lambda row: row["z"],
         "Z, random places": lambda row: z(now.get(int(row["length"]), [])),
         "slip recorded over that of the plates, before": lambda row: row["slip_recorded"] or "-",
         "now": lambda row: spread([number(one, "recorded") for one in summaries() if one["length"] == row["length"]])
     }
-    return study_table("packing/grid.csv", columns)
+    return study_table("packing/grid.csv", columns, across=True)
 
 
 def rupture_packing_table():
@@ -425,10 +453,11 @@ def rupture_packing_table():
 # ---- tables of studies
 
 
-def study_table(file, columns, rows=None):
-    """A table of a study. columns: {head: function of a row, or the key of a number}."""
+def study_table(file, columns, rows=None, across=False):
+    """A table of a study. columns: {head: function of a row, or the key of a number}; across: a column for each row."""
     rows = rows if rows is not None else read(FOLDER / file)
-    return table(columns, [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows])
+    return (turned if across else table)(list(columns),
+                                         [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows])
 
 
 def slow_driving_table():
@@ -436,24 +465,35 @@ def slow_driving_table():
     def per(row, *keys):
         return ", ".join(f"{18 * number(row, key) / number(row, 'displacement'):.0f}" for key in keys)
 
-    return study_table(
-        "slow-driving.csv", {
-            "predicted, velocity": lambda row: row["velocity"], "leaps at": lambda row: row["fast"] or "no leaps",
-            "events >= 1e-3, 1e-2, 0.1 per displacement of 18": lambda row: per(row, "events_3", "events_2", "events_1"),
-            "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2", "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
-            "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
-            "large events matched, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
-            if row["same"] else "", "steps per large event": "steps_per_large"
-        })
+    columns = {
+        "velocity": lambda row: row["velocity"] + (", leaps" if row["fast"] else ""),
+        "events >= 1e-3, 1e-2, 0.1": lambda row: per(row, "events_3", "events_2", "events_1"), "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2",
+        "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
+        "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
+        "large events matched, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
+        if row["same"] else "", "steps per large event": "steps_per_large"
+    }
+    rows = [row for row in read(FOLDER / "slow-driving.csv") if row["fast"] in ("", "2.5e-4")]
+    return study_table("", columns, rows, across=True)
+
+
+def slow_driving_slider_table():
+    """Chains with seed 1, displaced far enough, without leaps and with those of 1e-3."""
+    rows = [row for row in read(FOLDER / "slow-driving-slider.csv") if row["seed"] == "1" and float(row["displacement"]) >= 400]
+    columns = {"blocks, velocity": lambda row: f"{row['blocks']}, {row['velocity']}{', leaps' if row['leap'] != '0' else ''}"}
+    columns |= {"events >= 1, 100, 1000": lambda row: ", ".join(f"{number(row, f'events_{size}'):.0f}" for size in (1, 100, 1000))}
+    columns |= {
+        "exponent 1 to 100": "exponent", "gamma >= 1": "gamma", "p of sizes, times": lambda row: f"{row['p_size']}, {row['p_time']}".strip(", ")
+    }
+    columns |= {"steps per event >= 100": lambda row: f"{float(row['steps_per_100']):.0f}"}
+    return study_table("", columns, [row for row in rows if row["leap"] in ("0", "1e-3")])
 
 
 def work_precision_table():
-    columns = {"predicted, time step": lambda row: row["dt"], "masses raised for": lambda row: row["massstep"], "onset": lambda row: row["onset"]}
-    columns |= {
-        "model time, large events per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}, {number(row, 'large_per_core_hour'):.0f}"
-    }
-    columns |= {"events >= 1e-3 (relative)": "rate", ">= 1e-2": "rate_2", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}
-    return study_table("accuracy_catalogues.csv", columns)
+    columns = {"time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}"}
+    columns |= {"model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}"}
+    return study_table("accuracy_catalogues.csv",
+                       columns | {"events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"})
 
 
 def named(label, size):
@@ -465,9 +505,8 @@ def ranking_table():
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
         rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
-    columns = {"times ranked by distance (models: predicted)": lambda row: named(row["label"], row["threshold"])}
-    columns |= {"catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
-    columns |= {key: key for key in ("distance", "gamma", "burstiness", "memory", "after", "b")}
+    columns = {"": lambda row: named(row["label"], row["threshold"]), "catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
+    columns |= {"distance": "distance", "gamma": "gamma", "after large events": "after", "b-value": "b"}
     return study_table("", columns, rows.values())
 
 
@@ -481,29 +520,29 @@ def table1_table():
                                                                                                  ("slider", "1")):
             cell = "1 (held)" if "held" in row["method"] else of(row, "delta")
             columns.setdefault(name, {key: row[key] if printed else cell if key == "delta" else of(row, key) for key in ("gamma", "delta", "B", "C")})
-    return table(["", *columns], [[key, *(column[key] for column in columns.values())] for key in ("gamma", "delta", "B", "C")])
+    keys = ("gamma", "delta", "B", "C")
+    return table(["", *keys], [[name, *(column[key] for key in keys)] for name, column in columns.items()])
 
 
 def laws_table():
-    """Each law over its packings, with p of each packing."""
+    """Each law over its packings."""
     groups = grouped(read(FOLDER / "laws.csv"), lambda row: row["run"].rsplit("_", 1)[0])
 
-    def over(*keys):
-        return lambda rows: ", ".join(spread([number(row, key) for row in rows], number(rows[0], f"{keys[0]}_error")) for key in keys)
+    def all_of(*keys):
+        return lambda rows: ", ".join(spread([number(row, key) for row in rows]) for key in keys)
 
-    keys = {"saw-tooth": ["saw_tooth"], "exponent": ["exponent"], "gamma": ["gamma"], "burstiness": ["burstiness"], "distance": ["distance"]}
-    keys |= {f"before, after a main shock, {text}": [f"before_{part}", f"after_{part}"] for text, part in (("to 300", "near"), ("300 to 3e4", "far"))}
-    columns = {"predicted, law": lambda rows: rows[0]["run"].rsplit("_", 1)[0]}
-    columns |= {"packings, events": lambda rows: f"{len(rows)}, {sum(int(row['events']) for row in rows)}"}
-    columns |= {head: over(*some) for head, some in keys.items()}
-    columns |= {"aftershocks": lambda rows: ", ".join(row["aftershocks"] or "0" for row in rows)}
-    columns |= {"Omori p": lambda rows: ", ".join(of(row, "omori_p") if row["omori_p"] else "none" for row in rows)}
+    keys = {"exponent": ["exponent"], "gamma": ["gamma"], "distance": ["distance"]}
+    keys |= {
+        f"events before, after a main shock, {text}": [f"before_{part}", f"after_{part}"]
+        for text, part in (("to 300", "near"), ("300 to 3e4", "far"))
+    }
+    columns = {"law": lambda rows: rows[0]["run"].rsplit("_", 1)[0]} | {head: all_of(*some) for head, some in keys.items()}
     return study_table("", columns, groups.values())
 
 
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
 TABLES |= {name: lambda made=made: table(*made()) for name, made in speed_tables.TABLES.items()}
-TABLES |= {"walk": lambda: table(*walk.table(shown)), "lattice": lambda: table(*walk.lattice(shown))}
+TABLES |= {name: lambda name=name: table(*walk.table(shown, name)) for name in walk.TABLES} | {"lattice": lambda: turned(*walk.lattice(shown))}
 
 
 def check(write):

@@ -44,6 +44,15 @@ CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.
             ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"), ("roughness, in plane", "rough-inplane"),
             ("roughness, blocks 15 thick", "rough-thin"), ("roughness, stiffness of the lattice",
                                                            "rough-lattice"), ("roughness, no inertia, radiation 1.28", "rough-quasi"))
+TABLES = {
+    "walk": {"gamma": "gamma_0", "distance to the fault": "to_fault", "events < 1": "small", "drops of 1 to 3 blocks": "short",
+             "ruptures of 1 to 3 blocks": "local"},
+    "walk-sizes": {f"exponent {10.0**n:g} to {10.0**(n + 1):g}": f"exponent_{n}" for n in DECADES[1:]} | {"events < 1": "small"},
+    "walk-times": {"gamma": "gamma_0", "burstiness": "burstiness", "distance to slider": "to_slider", "to fault": "to_fault",
+                   "to California": "to_california"},
+    "walk-lengths": {"seeds, events": "events", "drops of 1 to 3 blocks": "short", "ruptures of 1 to 3 blocks, >= 0.01": "local",
+                     ">= 0.1": "local_10"},
+}  # yapf: disable
 
 
 def is_fault(name):
@@ -165,24 +174,22 @@ def measured(postproc, folder):
     return result
 
 
-def table(shown):
-    """Head and rows of the table of walk.md, from walk.csv. \\param shown text of a number and its error"""
+def table(shown, name):
+    """Head and rows of one of TABLES, from walk.csv. \param shown text of a number and its error"""
     found = {row["station"]: row for row in read(RESULTS / "walk.csv")}
-    lines = [(f"{text}, {n} blocks", f"{name}-{n}") for text, name in WALK for n in (256, 512, 1024)]
-    lines += [*FAULTS, *((f"*{text}*", f"{name}-512") for text, name in CONTROLS)]
-    head = ["station", "seeds, events", *(f"exponent {10.0**n:g} to {10.0**(n + 1):g}" for n in DECADES[1:])]
-    head += [*(f"gamma >= {10**n}" for n in SIZES), "burstiness", "distance to slider", "to fault", "to California"]
-    head += ["events < 1", "of 1 to 3 blocks", "ruptures of 1 to 3 blocks, >= 0.01", ">= 0.1"]
-    keys = [f"exponent_{n}" for n in DECADES[1:]] + [f"gamma_{n}" for n in SIZES]
-    keys += ["burstiness", "to_slider", "to_fault", "to_california", "small", "short"]
+    lines = [(f"{text}, {n} blocks", f"{station}-{n}") for text, station in WALK for n in (256, 512, 1024)]
+    lines += [*FAULTS, *((f"*{text}*", f"{station}-512") for text, station in CONTROLS)]
+    if name == "walk":
+        kept = [*(f"{station}-512" for _, station in WALK), "rough-chain-512", "fault"]
+        lines = sorted(((text.removesuffix(", 512 blocks"), station) for text, station in lines if station in kept),
+                       key=lambda one: kept.index(one[1]))
     rows = []
-    for text, name in lines:
-        if name not in found:
-            continue
-        one, local = found[name], found.get(f"ruptures-{name}", {})
-        cells = [shown(number(row, key), number(row, f"{key}_error")) for row, some in ((one, keys), (local, ("local", "local_10"))) for key in some]
-        rows.append([text, f"{one['seeds']}, {number(one, 'events') * int(one['seeds']):.0f}", *cells])
-    return head, rows
+    for text, station in lines:
+        if station in found:
+            one = found[station] | {key: value for key, value in found.get(f"ruptures-{station}", {}).items() if key.startswith("local")}
+            many = f"{one['seeds']}, {number(one, 'events') * int(one['seeds']):.0f}"
+            rows.append([text, *(many if key == "events" else shown(number(one, key), number(one, f"{key}_error")) for key in TABLES[name].values())])
+    return ["station", *TABLES[name]], rows
 
 
 def lattice(shown):
