@@ -93,6 +93,7 @@ for part; do
         gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../inputs/studies/work-precision.gp
       [ ! -e regime-map.csv ] || gnuplot -e "table = 'regime-map.csv'" ../inputs/studies/regime-map.gp
       gnuplot accuracy.gp
+      gnuplot packing.gp
       rm -f regime-map.svg
       ;;
     *)

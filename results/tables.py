@@ -505,8 +505,14 @@ def ranking_table():
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
         rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
+
+    def after(row):
+        """Of two catalogues both numbers: their standard error is half of the difference."""
+        mean, half = number(row, "after"), number(row, "after_error")
+        return f"{shown(mean - half)}, {shown(mean + half)}" if row["catalogues"] == "2" and half > 0 else of(row, "after")
+
     columns = {"": lambda row: named(row["label"], row["threshold"]), "catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
-    columns |= {"distance": "distance", "gamma": "gamma", "after large events": "after", "b-value": "b"}
+    columns |= {"distance": "distance", "gamma": "gamma", "after large events": after, "b-value": "b"}
     return study_table("", columns, rows.values())
 
 
