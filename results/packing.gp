@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Draws packing.png from packing/faces.csv.xz: where the discs of a face stand within one unit of length
+# Draws packing.png from packing/faces.csv.xz: places of the discs of a face within a unit of length
 set datafile separator ","
 set encoding utf8
 set border lw 1.0 lc rgb "#333333"
