@@ -6,9 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -110,15 +108,6 @@ void expect_each(const char *option, std::size_t given, const char *of, std::siz
         fmt::format("{} given {} times, expected once per {} ({})", option, given, of, count));
 }
 
-std::vector<std::string> labels_of(const std::vector<std::string> &paths,
-                                   const std::vector<std::string> &given, const char *input) {
-  expect_each("--label", given.size(), input, paths.size());
-  std::vector<std::string> labels = given;
-  for (std::size_t i = labels.size(); i < paths.size(); ++i)
-    labels.push_back(std::filesystem::path(paths[i]).filename().string());
-  return labels;
-}
-
 void UnitOptions::add_to(OptionGroup group) {
   group.add("--unit-length", length,
             "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
@@ -149,16 +138,12 @@ ModelUnits UnitOptions::units(const std::string &path, const CatalogueInfo &info
   return units();
 }
 
-void MagnitudeOptions::add_quantity_to(OptionGroup group) {
+void MagnitudeOptions::add_to(OptionGroup group) {
   group.add("--magnitude-of", made_of_,
             "size: of the size of an event (an energy); moment: of its slip moment, a column that "
             "not every catalogue has (fault: -var location yes)",
             among({"size", "moment"}), shown("size, with --unit-length moment"));
   units.add_to(group);
-}
-
-void MagnitudeOptions::add_to(OptionGroup group) {
-  add_quantity_to(group);
   group.add(
       "--magnitude-slope", slope,
       "Models: magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "

@@ -4,12 +4,9 @@
 #ifndef LSM_POSTPROC_OPTIONS_H
 #define LSM_POSTPROC_OPTIONS_H
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -50,12 +47,6 @@ PowerLine parse_guide(std::string_view text);
 /// \throws std::invalid_argument otherwise
 void expect_each(const char *option, std::size_t given, const char *of, std::size_t count);
 
-/// Label of each input: the one given, or the name of its file.
-/// \param input what one of them is, for the message
-/// \throws std::invalid_argument unless there is a label for each input, or none
-std::vector<std::string> labels_of(const std::vector<std::string> &paths,
-                                   const std::vector<std::string> &given, const char *input);
-
 /// Options that say what the units of the fault are in SI.
 struct UnitOptions {
   /// Unit of length (m), speed of P-waves (m/s), density (kg/m^3) and thickness (m).
@@ -78,10 +69,8 @@ struct MagnitudeOptions {
   UnitOptions units;
   std::optional<double> slope, constant;
 
-  /// Adds --magnitude-slope, --magnitude-constant and add_quantity_to().
+  /// Adds --magnitude-of, the units, --magnitude-slope and --magnitude-constant.
   void add_to(OptionGroup group);
-  /// Adds --magnitude-of and the units.
-  void add_quantity_to(OptionGroup group);
   /// \throws std::invalid_argument if options contradict each other
   void check() const;
   /// Whether something was given that earthquakes, which have magnitudes, do not need.

@@ -19,7 +19,7 @@ class Units : public CatalogueAnalysis {
   const char *help() const override {
     return "What the units of the lattice solid fault are in SI for a length, a speed of P-waves "
            "and a density of your choice, and what the faults of catalogues are then † (the "
-           "paper has model units only). magnitudes, rates and export take the same options";
+           "paper has model units only). magnitudes and export take the same options";
   }
 
   void add_options(CLI::App *command) override {

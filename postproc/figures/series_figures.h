@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file series_figures.h
-/// PE series: the events picked from them, whether they show stick-slip or creep, and their power
-/// spectra.
+/// PE series: the events picked from them, and whether they show stick-slip or creep.
 #ifndef LSM_POSTPROC_SERIES_FIGURES_H
 #define LSM_POSTPROC_SERIES_FIGURES_H
 
@@ -14,7 +13,6 @@
 #include "events/event_picker.h"
 #include "plot.h"
 #include "regime.h"
-#include "spectrum.h"
 #include "thinner.h"
 
 namespace LSM::postproc {
@@ -40,18 +38,6 @@ Table regime_table(const std::vector<SeriesRegime> &series);
 /// \param picker settings that are named in the key
 Figure series_figure(const Thinner &curves, const std::string &title, double t0, double t1,
                      bool events, const PickerSettings &picker);
-
-/// Power spectrum of one series.
-struct SpectrumCurve {
-  std::string label;
-  std::vector<SpectrumPoint> points;
-  std::int64_t samples = 0, segments = 0;
-  double averages = 0.0;  ///< number of independent segments with the same scatter
-};
-
-/// Power spectra †.
-/// \throws DegenerateData if all densities are 0
-Figure spectrum_figure(const std::vector<SpectrumCurve> &curves);
 
 }  // namespace LSM::postproc
 

@@ -45,7 +45,7 @@ std::int64_t SeriesInput::read(const Use &use) {
   std::int64_t step = 0, inside = 0;
   double time = 0.0, pe = 0.0;
   while (reader_.next(step, time, pe) && !is_before(options_.to_time, time)) {
-    if (use) use(step, time, pe);
+    use(step, time, pe);
     if (!is_before(time, options_.from_time)) ++inside;
   }
   if (reader_.torn())

@@ -51,7 +51,7 @@ class SeriesInput {
   /// \param use called with each sample, also with those before the window, which a picker needs
   /// \return number of samples within the window
   /// \throws FileError
-  std::int64_t read(const Use &use = nullptr);
+  std::int64_t read(const Use &use);
   /// As read().
   /// \throws std::runtime_error if there are fewer than three samples within the window
   std::int64_t read_some(const Use &use);

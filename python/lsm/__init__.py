@@ -19,7 +19,7 @@ import struct
 
 import numpy as np
 
-__all__ = ["read_catalogue", "read_series", "read_slip", "Table"]
+__all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "Table"]
 
 _INTEGERS = ("event_id", "step_start", "step_end")
 
@@ -120,3 +120,46 @@ def read_slip(path):
         raise ValueError(f"{path}: parameter 'bins' is {bins}, expected at least 1")
     places = [(name, "<f4", (bins,)) for name in ("slip", "work", "stress")]
     return Table(_records(raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)
+
+
+def spectrum(series, segment=None):
+    """Power spectral density of PE by Welch's method (1967): columns frequency, density, error.
+
+    The density is one-sided: its sum times the step of the frequencies is the variance. Segments of
+    so many samples overlap by half; their linear trends are taken off, and they are weighted with a
+    Hann window. Without segment: a power of two, at most 65536 and an eighth of the series. The
+    error is one standard deviation for noise.
+    """
+    step, pe = series["step"], series["pe"]
+    n = segment or min(1 << 16, 1 << max(3, (len(pe) // 8).bit_length() - 1))
+    if not 8 <= n <= len(pe):
+        raise ValueError(f"segment of {n} samples, expected from 8 to the {len(pe)} of the series")
+    gap = np.flatnonzero(np.diff(step) != step[1] - step[0])
+    if len(gap):
+        raise ValueError(f"step {step[gap[0] + 1]} after step {step[gap[0]]}, expected a sample every {step[1] - step[0]} steps")
+    spacing = (series["time"][-1] - series["time"][0]) / (len(pe) - 1)
+    window, line = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(n) / n), np.arange(n) - (n - 1) / 2
+    power, hop = np.sum(window**2), n - n // 2
+    sums, starts = np.zeros(n // 2 + 1), range(0, len(pe) - n + 1, hop)
+    for start in starts:
+        part = pe[start:start + n] - np.mean(pe[start:start + n])
+        sums += np.abs(np.fft.rfft((part - line * np.dot(line, part) / np.dot(line, line)) * window))**2
+    count, overlap = len(starts), np.dot(window[hop:], window[:n - hop]) / power
+    sides = np.where((np.arange(n // 2 + 1) == 0) | (2 * np.arange(n // 2 + 1) == n), 1.0, 2.0)  # 0 and n/2 have no counterpart
+    density = sides * sums * spacing / (power * count)
+    error = density * np.sqrt(2 / sides * (1 + 2 * (1 - 1 / count) * overlap**2) / count)
+    return Table(np.rec.fromarrays([np.fft.rfftfreq(n, spacing), density, error], names="frequency,density,error"), getattr(series, "header", {}))
+
+
+def rates(events, width, column="size"):
+    """Events, and what they release, over time: columns time (centre of a bin), events, rate, released, release_rate.
+
+    The edges of the bins are multiples of their width; empty bins count. column: "size" or "slip_moment".
+    """
+    bins = np.floor(np.round(events["t_start"] / width, 9)).astype(np.int64)
+    first, count = (bins.min(), bins.max() - bins.min() + 1) if len(bins) else (0, 0)
+    number = np.bincount(bins - first, minlength=count)
+    released = np.bincount(bins - first, events[column], count)
+    time = (first + np.arange(count) + 0.5) * width
+    return Table(np.rec.fromarrays([time, number, number / width, released, released / width], names="time,events,rate,released,release_rate"),
+                 getattr(events, "header", {}))

@@ -89,6 +89,58 @@ def test_series_that_is_none(work, raw, said):
         lsm.read_series("a.bin")
 
 
+def series_of(pe, spacing=0.5):
+    made = np.empty(len(pe), [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")])
+    made["step"], made["time"], made["pe"] = np.arange(len(pe)), spacing * np.arange(len(pe)), pe
+    return lsm.Table(made, {"model": "lsm"})
+
+
+def test_spectrum_of_a_sine():
+    """Amplitude 2 and a period of 25.6 samples of 0.5: variance 2, frequency 1/12.8."""
+    series = series_of(5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6))
+    found = lsm.spectrum(series, 1024)
+    assert np.sum(found["density"]) * found["frequency"][1] == pytest.approx(2, abs=0.001)
+    assert found["frequency"][np.argmax(found["density"])] == pytest.approx(1 / 12.8, abs=1e-12) and found.header == series.header
+    assert len(lsm.spectrum(series)) == 257, "an eighth of 4096"
+    with pytest.raises(ValueError, match="segment of 8192 samples, expected from 8 to the 4096"):
+        lsm.spectrum(series, 8192)
+    with pytest.raises(ValueError, match="step 93 after step 91, expected a sample every 1 steps"):
+        lsm.spectrum(np.delete(series, 92))
+
+
+@pytest.mark.parametrize("n", [16, 15])
+def test_spectrum_is_its_definition(n):
+    """The transform as a sum; half-overlapping segments; trend off; both ends of even n unpaired."""
+    pe, hop = np.random.default_rng(1).normal(size=40), n - n // 2
+    time, window = np.arange(n), np.sin(np.pi * np.arange(n) / n)**2
+    density = np.zeros(n // 2 + 1)
+    starts = range(0, len(pe) - n + 1, hop)
+    for start in starts:
+        part = pe[start:start + n]
+        part = (part - np.polyval(np.polyfit(time, part, 1), time)) * window
+        for k in range(n // 2 + 1):
+            both = 1 if k == 0 or 2 * k == n else 2
+            density[k] += both * 0.5 * abs(np.sum(part * np.exp(-2j * np.pi * k * time / n)))**2 / np.sum(window**2) / len(starts)
+    assert np.allclose(lsm.spectrum(series_of(pe), n)["density"], density, rtol=1e-10, atol=1e-14)
+
+
+def test_spectrum_of_noise_has_the_scatter_of_its_errors():
+    """Flat, 2 sigma^2 dt."""
+    found = [lsm.spectrum(series_of(3 * np.random.default_rng(seed).normal(size=128 * 100)), 128)[5:-1] for seed in range(20)]
+    densities, errors = (np.array([one[name] for one in found]) for name in ("density", "error"))
+    assert densities.mean() == pytest.approx(9.0, rel=0.02)
+    assert densities.std() == pytest.approx(errors.mean(), rel=0.05)
+
+
+def test_rates():
+    made = np.array([(0.3, 0.5), (0.55, 0.25), (1.1, 2.0)], [("t_start", "<f8"), ("size", "<f8")])
+    found = lsm.rates(lsm.Table(made, {}), 0.1)
+    assert found["time"][0] == pytest.approx(0.35), "0.3 begins a bin of 0.1, though 0.3 / 0.1 is below 3"
+    assert found["events"].tolist() == [1, 0, 1, 0, 0, 0, 0, 0, 1] and found["released"].sum() == 2.75
+    assert found["rate"][0] == pytest.approx(10) and found["release_rate"][-1] == pytest.approx(20)
+    assert len(lsm.rates(lsm.Table(made[:0], {}), 0.1)) == 0
+
+
 @pytest.fixture(scope="module")
 def page_results(lmp, tmp_path_factory):
     """Runs the blocks of the page, which make a fault and read its files. Returns the folder of these."""
@@ -98,12 +150,13 @@ def page_results(lmp, tmp_path_factory):
         pytest.skip("liblammps.so is not built")
     code = "".join(re.findall(r"^```python\n(.*?)^```$", (SOURCE / "inputs/python.md").read_text(), re.S | re.M))
     code += """
-import numpy as np
 drop = dict(zip(series["step"], series["pe"]))
 assert len(events) > 0 and len(series) > 3000 and len(ruptures) > 0 and (events["size"] > 0).all()
 assert np.allclose([drop[a] - drop[b] for a, b in zip(events["step_start"], events["step_end"])], events["size"], rtol=1e-9, atol=1e-15)
 assert history["step_end"].max() <= 3100 and slip.shape == (int(history.header["bins"]),) and slip.mean() > 0
 assert (history["step_begin"][1:] == history["step_end"][:-1]).all() and velocity.shape == (len(history) - 1, slip.size)
+assert rates["events"].sum() == len(events) and np.isclose(rates["released"].sum(), events["size"].sum())
+assert len(spectrum) == 257 and (spectrum["density"] > 0).all()
 """
     (folder / "page.py").write_text(code)
     ran = subprocess.run([sys.executable, "page.py"], cwd=folder, env={**lmp.env, "PYTHONPATH": str(BUILD / "python")}, capture_output=True,

@@ -213,33 +213,6 @@ def piped(do, before, command, *after):
         return do(before, f"/dev/fd/{number}", *after, pass_fds=(number,))
 
 
-def test_spectrum(do, no):
-    # A sine of amplitude 2 with a period of 25.6 steps of 0.5 has variance 2 and frequency 1/12.8.
-    wave = 5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6)
-    write_series("sine", wave, dict(dt=0.5))
-    do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum")
-    found = np.array(numbers_of("sine_spectrum.csv", 2, 3, 4))
-    assert np.sum(found[:, 1] * found[:, 2]) == pytest.approx(2, abs=0.001)
-    assert found[np.argmax(found[:, 2]), 0] == pytest.approx(1 / 12.8, abs=5e-6)
-    assert " sine 4096 7 " in joined(do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum"))
-    # The default length is an eighth of 4096, also from a pipe.
-    do("spectrum sine --no-picture -o usual").printed(" sine 4096 15 ")
-    shutil.copy("usual.csv", "file.csv")
-    piped(do, "spectrum", "cat sine", "--label sine --no-picture -o usual")
-    same_bytes("usual.csv", "file.csv")
-    no("4096 samples in the window of time, expected at least one segment of 8192", "spectrum sine --segment 8192 -o x")
-    write_series("gap", np.delete(wave, 92), dict(dt=0.5), step=np.delete(np.arange(4096), 92))
-    no("gap: step 93 after step 91, expected a sample every 1 steps", "spectrum gap -o x")
-    no("label given 1 times, expected once per series \\(2\\)", "spectrum sine sine --label a -o x")
-
-
-def test_spectrum_pictures(do, gnuplot):
-    write_series("sine", 5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6), dict(dt=0.5))
-    do("spectrum sine sine --label one --label 'two & <2>' -o drawn")
-    for ending in "png", "svg", "gp", "csv":
-        assert os.path.getsize(f"drawn.{ending}") > 0, ending
-
-
 def joined(result):
     return re.sub(" +", " ", result.out)
 
@@ -540,7 +513,7 @@ def test_json(do, no):
     assert f'"events": {len(rows("picked.csv"))}' in Path("p.json").read_text()
     for command, path, name in (("histograms c.csv -o h", "h.csv", "densities"), ("intervals c.csv -o i --replicas 0", "i.table1.csv", "fits"),
                                 ("intervals c.csv -o i --replicas 0", "i.csv", "densities"), ("magnitudes c.csv -o m", "m.bvalues.csv", "b_values"),
-                                ("spectrum pe.bin -o s", "s.csv", "spectra"), ("series pe.bin -o r", "r-events.csv", "events")):
+                                ("series pe.bin -o r", "r-events.csv", "events")):
         do(command, "--no-picture --overwrite --json j.json")
         same_numbers(path, "j.json", name)
     do("compare picked.csv picked.csv --threshold 1e-7 --replicas 10 -o v --json v.json")
@@ -645,7 +618,7 @@ def test_outputs_are_not_inputs(no, work):
         no("is read by this command, expected another name", words)
     series("pe.csv", 50)
     shutil.copy("pe.csv", "own-events.csv")
-    for words in "series pe.csv -o pe", "series own-events.csv -o own", "spectrum pe.csv -o pe":
+    for words in "series pe.csv -o pe", "series own-events.csv -o own":
         no("is read by this command", words)
     for path in "x.csv", "./x.fits.csv", f"{work}/x.gp":
         no("are the same file", "fit good.csv -o x --json " + path)
@@ -670,11 +643,11 @@ def test_bad_options(do, no):
     do("--version").printed("^postproc [0-9]")
 
 
-@pytest.mark.parametrize("command", "pick histograms intervals fit series spectrum magnitudes aftershocks export report explore".split())
+@pytest.mark.parametrize("command", "pick histograms intervals fit series magnitudes aftershocks export report explore".split())
 def test_bad_files(do, no, command):
     said = do(command, "--help").out
     assert "--output" in said and "Exit status" not in said
-    of_series = command in ("pick", "series", "spectrum")
+    of_series = command in ("pick", "series")
     Path("empty.csv").touch()
     Path("version.csv").write_text("lsm-pe-series-2\n" if of_series else "# lsm-catalogue 2\n")
     no("nowhere.csv: cannot open", command + " nowhere.csv -o x")

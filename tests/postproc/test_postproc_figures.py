@@ -455,7 +455,7 @@ def test_few(do, no):
 DRAW = {
     "histograms": "histograms a.csv b.csv", "intervals": "intervals a.csv b.csv --replicas 0",
     "fit": "fit a.csv b.csv --replicas 0 --scaling --bootstrap 2 --range 1e-2:1", "magnitudes": "magnitudes a.csv b.csv --threshold 1e-3",
-    "aftershocks": "aftershocks a.csv b.csv --replicas 0", "rupture": "rupture r.csv r.csv", "spectrum": "spectrum pe.bin", "series": "series pe.bin"
+    "aftershocks": "aftershocks a.csv b.csv --replicas 0", "rupture": "rupture r.csv r.csv", "series": "series pe.bin"
 }
 MAIN = {"rupture": "-length"}
 

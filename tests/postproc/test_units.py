@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""SI units of the fault: the same conversion in units, magnitudes, rates and export."""
+"""SI units of the fault: the same conversion in units, magnitudes and export."""
 import json
 import math
 import xml.etree.ElementTree as xml
@@ -94,18 +94,6 @@ def test_quakeml(postproc, catalogue):
     assert json.loads(Path("n.json").read_text())["sizes"][0]["events"] == sum(float(row["mag"]) >= 4 for row in wanted) > 0
 
 
-def test_rates(postproc, catalogue):
-    catalogue("c.csv")
-    assert run(postproc, "rates c.csv --bin 10 -o r --no-picture").out.startswith("time (model time); sizes per model time\n")
-    rows = table("r.csv")
-    assert [(float(row["from"]), int(row["events"]), float(row["released"])) for row in rows] == [(0, 1, 0.5), (10, 1, 0.05), (20, 1, 2.0)]
-    assert [float(row["release_rate"]) for row in rows] == pytest.approx([0.05, 0.005, 0.2])
-    assert run(postproc, f"rates c.csv --bin {10 * TIME} -o s --no-picture", ROCK).out.startswith("time (s); moment rate (N m/s)\n")
-    assert [float(row["released"]) for row in table("s.csv")] == pytest.approx([MOMENT, 0.1 * MOMENT, 10 * MOMENT])
-    assert [float(row["event_rate"]) for row in table("s.csv")] == pytest.approx([0.1 / TIME] * 3)
-    refused(postproc, "rates c.csv --bin 1e-7 -o x", "expected at most a million bins")
-
-
 def test_nothing_is_chosen(postproc, catalogue):
     catalogue("c.csv")
     catalogue("slider.csv", model="block-slider")
@@ -114,18 +102,18 @@ def test_nothing_is_chosen(postproc, catalogue):
         words = " ".join(f"{option} {value}" for option, value in chosen.items() if option != left_out)
         refused(postproc, f"export c.csv -o x.csv {words}", f"no {left_out}: a model has neither dates nor magnitudes, expected --unit-length")
     for left_out in "--unit-length 100", "--p-speed 6000", "--density 2700":
-        for command in "export", "magnitudes", "rates", "units":
+        for command in "export", "magnitudes", "units":
             output = "" if command == "units" else "-o x"
             refused(postproc, f"{command} c.csv {output} " + ROCK.replace(left_out, ""), f"no {left_out.split()[0]}: expected all of")
     refused(postproc, f"export c.csv -o x.csv {ROCK} --time-unit day", "time-unit with --unit-length, from which it follows")
     refused(postproc, f"export c.csv -o x.csv {ROCK} --magnitude-constant 1", "magnitude-constant with --unit-length, from which it follows")
-    for command in "export slider.csv -o x.csv", "units slider.csv", "rates slider.csv -o x", "magnitudes slider.csv -o x":
+    for command in "export slider.csv -o x.csv", "units slider.csv", "magnitudes slider.csv -o x":
         refused(postproc, f"{command} {ROCK}", "slider.csv: model is 'block-slider', expected 'lsm' for SI units")
 
 
 def test_catalogue_without_moments_says_how_to_record_them(postproc):
     t = np.array([0.0, 10.0])
     write_catalogue("c.csv", t, np.array([0.5, 0.05]), dict(model="lsm", length=40), t_end=t + 1, pe_start=[3] * 2, pe_end=[2] * 2)
-    for command in "export c.csv -o x.csv", "magnitudes c.csv -o x", "rates c.csv -o x":
+    for command in "export c.csv -o x.csv", "magnitudes c.csv -o x":
         refused(postproc, f"{command} {ROCK}", "c.csv: has no column slip_moment.*-var location yes")
     run(postproc, "units c.csv", ROCK).printed("Me of the largest event")
