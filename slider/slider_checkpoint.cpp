@@ -9,6 +9,7 @@
 
 #include "files/binary_io.h"
 #include "files/checksum.h"
+#include "files/header_keys.h"
 #include "files/output_file.h"
 #include "files/state.h"
 
@@ -19,8 +20,11 @@ namespace {
 constexpr int version = 6;
 constexpr const char *title = "slider_cli checkpoint ";
 
-bool is_steps(const std::string &setting) {
-  return setting.rfind(std::string(steps_key) + " = ", 0) == 0;
+/// The key if a run that continues may change its value, otherwise "".
+std::string_view may_change(std::string_view setting) {
+  const std::string_view key = setting.substr(0, setting.find(" = "));
+  const LSM::HeaderKey *const known = LSM::header_key(key);
+  return known && known->may_change ? key : "";
 }
 
 void compare(const std::string &path, const std::vector<std::string> &found,
@@ -28,7 +32,7 @@ void compare(const std::string &path, const std::vector<std::string> &found,
   for (std::size_t i = 0; i < std::max(found.size(), expected.size()); ++i) {
     const std::string x = i < found.size() ? found[i] : "",
                       y = i < expected.size() ? expected[i] : "";
-    if (x != y && !(is_steps(x) && is_steps(y)))
+    if (x != y && (may_change(x).empty() || may_change(x) != may_change(y)))
       throw std::runtime_error(path + ": cannot resume: checkpoint has '" + x + "', expected '" +
                                y + "'");
   }

@@ -19,9 +19,6 @@
 
 namespace Slider {
 
-/// The setting that may change when a run is continued.
-constexpr const char *steps_key = "steps";
-
 /// Counts of the events of a run so far.
 struct EventCounts : LSM::FilterCounts {
   /// Drops of PE that slip does not explain, see is_by_plate()
@@ -56,7 +53,7 @@ struct RunState : EventCounts {
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 
-/// Reads a checkpoint of a run with the same settings, but for the number of steps.
+/// Reads a checkpoint of a run with the same settings, but for those that may change (header_keys.h).
 /// \throws std::runtime_error with one line if the file is damaged, or of another version, or of a
 /// run with other settings, of which the first is named
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);

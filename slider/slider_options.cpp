@@ -376,7 +376,7 @@ class CommandLine {
     add("slip_distance", p_.friction.dc, law == Law::slip_weakening);
     add("scheme", to_string(p_.scheme));
     add("dt", p_.dt);
-    add(steps_key, run_.steps);
+    add("steps", run_.steps);
     add("leap", run_.leap_speed, leaps);
     add("leap_calm", leap_calm, leaps);
     add("events", to_string(run_.events), ruptures);

@@ -45,7 +45,8 @@ class Fit : public Statistic {
     group.flag("--no-comparison", no_comparison_, "Leave out the rival laws");
     group.flag("--roll-off", roll_off_,
                "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
-               "on, and 2 ln L of d = 1 over a power law without end †");
+               "on, taken as continuous also where magnitudes are in bins, and 2 ln L of d = 1 over "
+               "a power law without end †");
     group.flag("--scaling", scaling_,
                "Characteristic size <s^2>/<s> against length for each model: a power law, no "
                "dependence, or growth that ends at a length †");

@@ -115,6 +115,9 @@ class Intervals : public Statistic {
                 ? curve.sample.label + ": all times are 0: the events start together"
                 : fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
                               curve.sample.label, short_number(curve.sample.threshold.size)));
+      else if (curve.zeros > 0)
+        results.warn(fmt::format("{}, {}: {} of {} times are 0, left out of densities and fits",
+                                 curve.sample.label, curve.sample.from(), curve.zeros, curve.n));
     if (settings_.places > 0)
       results.say(fmt::format(
           "times at {} places each; places closer than the length of ruptures share ruptures, "

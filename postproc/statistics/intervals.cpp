@@ -155,6 +155,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
   if (shuffles > 0 && settings.places == 0) add_clustering(curve, table, times, shuffles, settings);
   times = positive_ones(std::move(times));
+  curve.zeros = curve.n - static_cast<std::int64_t>(times.size());
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
   curve.plot.bins = log_histogram(times, settings.factor);

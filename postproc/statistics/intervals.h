@@ -101,8 +101,9 @@ struct IntervalPlot {
 struct IntervalCurve {
   IntervalSample sample;
   IntervalPlot plot;
-  std::int64_t n = 0;  ///< number of inter-event times
-  double mean = 0.0;   ///< mean inter-event time before rescaling; NaN if there is none
+  std::int64_t n = 0;      ///< number of inter-event times
+  std::int64_t zeros = 0;  ///< those of 0, which are left out of densities and fits
+  double mean = 0.0;       ///< mean inter-event time before rescaling; NaN if there is none
   /// Coefficient of variation of the times: 1 for independent events, 0 for periodic ones, above 1
   /// for clustered ones; NaN for fewer than two times.
   double variation = 0.0;

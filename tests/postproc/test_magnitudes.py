@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import table, write_catalogue
+from data_files import rows_of, table, write_catalogue
 from programs import SOURCE, refused, run
 
 CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
@@ -212,7 +212,7 @@ def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     searched = next(row for row in table("f.fits.csv") if row["searched"] == "yes")
     assert abs(float(searched["exponent"]) - exponent) < 4 * float(searched["standard_error"])
     said = run(postproc, "summary q.csv --threshold M2")
-    row = dict(zip(*[line.split(",") for line in said.out.splitlines() if not line.startswith("#")]))
+    row = next(rows_of(said.out.splitlines()))
     of_summary = [float(value) for name, value in row.items() if name.startswith("exponent_")]
     assert of_summary == pytest.approx([exponent], abs=0.02) and "magnitudes in bins of" in said.err
     run(postproc, "explore q.csv -o explore.html")
@@ -314,6 +314,14 @@ def test_ties(postproc, work):
         refused(postproc, f"fit ties.csv -o o --no-picture {bins}", "all sizes are equal")
     refused(postproc, "intervals ties.csv -o o --no-picture", "all times are 0")
     refused(postproc, "aftershocks ties.csv -o o --no-picture", "ties.csv: all times are 0")
+
+
+def test_times_of_0_are_counted(postproc, work):
+    quakes("q.csv", ["3.0"] * 40)
+    lines = Path("q.csv").read_text().splitlines(keepends=True)
+    Path("q.csv").write_text("".join(lines + lines[-1:] * 2))
+    run(postproc, "intervals q.csv -o o --no-picture --replicas 0 --shuffles 0").warned(
+        "^postproc: .*: 2 of 41 times are 0, left out of densities and fits$")
 
 
 # ---------------------------------------------------------------- what counts as the data's fault

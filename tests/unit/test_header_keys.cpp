@@ -43,6 +43,11 @@ TEST(HeaderKeys, ValuesOutOfRangeAreNamed) {
                                                         {"length", "0"},
                                                         {"dt", "0"},
                                                         {"blocks", "0"},
+                                                        {"blocks", "16.5"},
+                                                        {"seed", "one"},
+                                                        {"stride", "1.5"},
+                                                        {"stress", "0.02-0.05"},
+                                                        {"kt", "inf"},
                                                         {"picker", "best"},
                                                         {"keep_nonpositive", "perhaps"}})
     EXPECT_EQ(bad_value(key, value).find(key + " is '" + value + "', expected "), 0u) << key;
@@ -51,6 +56,8 @@ TEST(HeaderKeys, ValuesOutOfRangeAreNamed) {
                                                         {"lambda", "0"},
                                                         {"warmup", "-5"},
                                                         {"picker", "literal"},
+                                                        {"checkpoint", "1e5"},
+                                                        {"stress", "-0.5"},
                                                         {"keep_nonpositive", "no"},
                                                         {"something", "else"},
                                                         {"length_2", "none"}})

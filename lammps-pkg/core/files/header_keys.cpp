@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "files/header_keys.h"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "events/event_picker.h"
@@ -80,7 +80,7 @@ const std::vector<HeaderKey> &header_keys() {
       {"keep_nonpositive",   recording, Type::yes_no},
       {"warmup",             recording, number, -infinity, infinity, "a finite time"},
       {"plate_drops",        model,     text},
-      {"tangential_energy",  model,     Type::text},
+      {"tangential_energy",  model,     text},
       {"picked_by",          recording, text},
       {"selected",           recording, text},
       // of slip and ruptures
@@ -126,14 +126,18 @@ std::string bad_value(const std::string &key, const std::string &value) {
   const auto expected = [&](const std::string &what) {
     return key + " is " + text_io::in_quotes(value) + ", expected " + what;
   };
+  using Type = HeaderKey::Type;
+  const bool whole = known->type == Type::whole;
   double number = 0.0;
-  if (known->expected &&
-      !(text_io::parse(value, number) && number >= known->least && number < known->below))
+  if ((whole || known->type == Type::number) &&
+      (!text_io::parse(value, number) || (whole && number != std::floor(number))))
+    return expected(known->expected ? known->expected : whole ? "a whole number" : "a number");
+  if (known->expected && !(number >= known->least && number < known->below))
     return expected(known->expected);
   PickerReading reading{};
-  if (known->type == HeaderKey::Type::reading && !from_string(value, reading))
+  if (known->type == Type::reading && !from_string(value, reading))
     return expected(choices(reading));
-  if (known->type == HeaderKey::Type::yes_no && value != "yes" && value != "no")
+  if (known->type == Type::yes_no && value != "yes" && value != "no")
     return expected("yes or no");
   return {};
 }

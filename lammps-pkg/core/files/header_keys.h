@@ -19,8 +19,8 @@ struct HeaderKey {
   std::string_view key;
   Of of = Of::model;
   Type type = Type::text;
-  /// Range of a number that programs use; `expected` names it in messages. Without it the value is
-  /// not checked.
+  /// Range of a number that programs use; `expected` names it in messages. Without it any finite
+  /// number will do.
   double least = 0.0, below = 0.0;
   const char *expected = nullptr;
   /// Whether a run that continues may have another value. The old one stays in the file, unless its
