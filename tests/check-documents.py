@@ -5,9 +5,9 @@
 check-documents.py SOURCE_DIR [PROGRAM...]
 
 Links and anchors of Markdown pages exist; their lines and the comments of scenes and studies are
-at most 100 columns wide; READMEs have at most 150 lines; variables.md has the table of
-fault.variables; options.md of each program is what its --help prints (--write as the last word writes
-both).
+at most 100 columns wide; READMEs have at most 150 lines; the classes that ARCHITECTURE.md draws
+exist; variables.md has the table of fault.variables; options.md of each program is what its --help
+prints (--write as the last word writes both).
 """
 import re
 import subprocess
@@ -67,6 +67,17 @@ def check_markdown(root):
                     problem(f"{name}:{number}: {target} does not exist")
                 elif part and part not in anchors(file):
                     problem(f"{name}:{number}: {target}: no such heading")
+
+
+def check_classes(root):
+    picture = re.search(r"^## The classes.*?^```\n(.*?)^```", (root / "ARCHITECTURE.md").read_text(), re.S | re.M)[1]
+    code = "".join(file.read_text() for part in ("lammps-pkg", "slider", "postproc") for file in (root / part).rglob("*.[ch]*")
+                   if file.suffix in (".h", ".cpp"))
+    names = re.findall(r"\b[A-Z]\w*[a-z][A-Z]\w*\b(?!\w*\.\.\.)", picture)
+    assert len(names) > 40, names
+    for name in names:
+        if not re.search(rf"\b(class|struct|namespace) {name}\b", code):
+            problem(f"ARCHITECTURE.md: the picture has {name}, expected a class or namespace")
 
 
 def check_comments(root):
@@ -159,6 +170,7 @@ def main(root, programs, write):
         elif not page.exists() or page.read_text() != text:
             problem(f"{page.relative_to(root)} is not what {Path(program).name} --help prints: {Path(__file__).name} ... --write makes it")
     check_markdown(root)
+    check_classes(root)
     check_comments(root)
     check_scenes(root)
     check_variables(root, write)
