@@ -4,10 +4,14 @@ import gzip
 import lzma
 import re
 import struct
+import sys
 from pathlib import Path
 
 import numpy as np
-from programs import SOURCE
+from programs import INPUTS, SOURCE
+
+sys.path.insert(0, str(INPUTS / "studies"))
+from text_tables import header_of, rows_of  # noqa: E402
 
 COLUMNS = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end".split(",")
 
@@ -20,7 +24,7 @@ def lines(path):
 
 
 def header(path):
-    return dict(line[2:].split(" = ", 1) for line in lines(path) if line.startswith("# ") and " = " in line)
+    return header_of(lines(path))
 
 
 def unknown_keys(*headers):
@@ -47,8 +51,7 @@ def same(a, b, least=10):
 
 def table(path):
     """The rows of a CSV with a header of comments, as a list of dicts of texts."""
-    import csv
-    return list(csv.DictReader(line for line in lines(path) if not line.startswith("#")))
+    return list(rows_of(lines(path)))
 
 
 def read_catalogue(path):

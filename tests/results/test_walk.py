@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Statistics of the study walk that are computed without postproc, compared with those of postproc."""
-import csv
 import math
 import random
 import sys
@@ -10,6 +9,7 @@ from programs import INPUTS, run
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import walk  # noqa: E402
+from text_tables import rows_of  # noqa: E402
 
 CATALOGUES = sorted((walk.RESULTS / "walk").glob("chain-512_?.catalogue.csv.xz"))
 
@@ -17,7 +17,7 @@ CATALOGUES = sorted((walk.RESULTS / "walk").glob("chain-512_?.catalogue.csv.xz")
 def test_exponents_are_those_of_postproc(postproc):
     assert CATALOGUES
     said = run(postproc, ["summary", CATALOGUES[0], "--range", "1:10", "--range", "10:100"]).out
-    row = next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+    row = next(rows_of(said.splitlines()))
     found = walk.exponents(CATALOGUES[:1], 1.0, 0.0)
     assert found["exponent_0"][0] == pytest.approx(float(row["exponent_1:10"]), abs=1e-4)
     assert found["exponent_1"][0] == pytest.approx(float(row["exponent_10:100"]), abs=1e-4)
