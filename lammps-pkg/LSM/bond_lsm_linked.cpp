@@ -175,7 +175,7 @@ template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s,
                                     avx2);
 }
 
-// Broken links are noted for fix LSM_BREAK; before the next evaluation of the forces the list is
+// Broken links are listed for fix LSM_BREAK; before the next evaluation of the forces the list is
 // collected without them.
 void BondLSMLinked::note_broken(Segment &segment)
 {
@@ -237,9 +237,9 @@ double BondLSMLinked::max_strain() const
   return worst;
 }
 
-std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
+std::vector<BondLSMLinked::CurrentLink> BondLSMLinked::current_links() const
 {
-  std::vector<Held> all;
+  std::vector<CurrentLink> all;
   all.reserve(neighbor->nbondlist);
   for_each_link([&](const Segment &s, int i, int j, double) {
     all.push_back({i, j, k[s.type], k[s.type] * delay[s.type]});

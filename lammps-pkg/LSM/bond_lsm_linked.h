@@ -38,12 +38,12 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   /// Two particle IDs and the type of each link that broke since fix LSM_BREAK last collected them.
   std::vector<tagint> broken;
 
-  struct Held {
+  struct CurrentLink {
     int i, j;    ///< local indices
     double stiffness, viscosity;
   };
   /// Links of the last force evaluation; under bond_style hybrid only those of this style.
-  std::vector<Held> held() const;
+  std::vector<CurrentLink> current_links() const;
   /// Largest strain |r - r0| / r0 of these links.
   double max_strain() const;
   /// Retardation times of the types, empty if all are 0.

@@ -106,7 +106,7 @@ void ComputeLSMEvents::set_memory()
 // catalogue.
 void ComputeLSMEvents::open_files()
 {
-  const bool from_restart = !recorder->kept.empty();
+  const bool from_restart = !recorder->saved_state.empty();
   progress.begin();
   clock = {update->atime, update->atimestep, update->dt};
   for (auto &one : sources.variables()) settings.parameters.push_back(std::move(one));
@@ -114,7 +114,7 @@ void ComputeLSMEvents::open_files()
       lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
   if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
   std::unique_ptr<LSM::SavedStream> saved;
-  if (from_restart) saved = std::make_unique<LSM::SavedStream>(unpack_state(recorder->kept));
+  if (from_restart) saved = std::make_unique<LSM::SavedStream>(unpack_state(recorder->saved_state));
   if (settings.records_slip()) make_grid(saved.get());
   if (saved) on_rank_0([&] { stream->set_state(*saved); });
   change_dt();
@@ -403,13 +403,13 @@ struct Own {
 
 std::vector<double> ComputeLSMEvents::pack_state()
 {
-  if (!opened) return recorder->kept;
+  if (!opened) return recorder->saved_state;
   flush();
   if (settings.records_slip()) add_faces();
   const std::vector<double> open_sums = settings.records_slip() ? sum_on_0(fault)
                                                                 : std::vector<double>();
   std::vector<double> state;
-  const Own own = {last_recorded, ledger.kept(energies()), clock};
+  const Own own = {last_recorded, ledger.for_restart(energies()), clock};
   LSM::StateWriter to(state);
   Own::visit(own, to);
   if (comm->me == 0) {

@@ -340,7 +340,7 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
       lmp,
       "  loose particles (fewer than {} links) = {} {}, {} of them tangent to the fault line; "
       "softest support of the others = {:.4f} of a link\n",
-      LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
+      LSM::ENOUGH_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
       packing.loose_tangent, packing.weakest);
 }
 

@@ -11,7 +11,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 #include <vector>
 

@@ -19,7 +19,6 @@
 #include "pair_lsm_friction.h"
 #include "update.h"
 
-#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;

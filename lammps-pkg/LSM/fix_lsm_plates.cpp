@@ -42,12 +42,12 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   }
 
   using LSM::Must;
-  bool held = false;
+  bool has_normal = false;
   LSMKeywordReader in(lmp, "Fix lsm/plates", 5, narg, arg);
   const auto hold = [&](bool by_stress) {
     if (by_stress) stress = in.number(Must::not_negative);
     servo = by_stress;
-    held = true;
+    has_normal = true;
   };
   in.read_all({{"velocity", &speed},
                {"ramp", &ramp, Must::not_negative},
@@ -56,7 +56,7 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
                {"damping", &damping, Must::not_negative},
                {"impedance", &impedance, Must::not_negative},
                {"position", LSM::Action{0, [&] { hold(false); }}}});
-  if (!held)
+  if (!has_normal)
     error->all(FLERR, "Fix lsm/plates needs either 'stress value' (normal stress held) or "
                       "'position' (plates do not move across the fault)");
 }

@@ -32,7 +32,7 @@ void FixLSMRecord::reset_dt()
 
 void FixLSMRecord::write_restart(FILE *fp)
 {
-  kept = owner->pack_state();
+  saved_state = owner->pack_state();
   LSMKeptFix::write_restart(fp);
 }
 

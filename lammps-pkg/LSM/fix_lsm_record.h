@@ -34,7 +34,7 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   void write_restart(FILE *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
-    state.list(self.kept);
+    state.list(self.saved_state);
   }
 
   /// Stores the positions of this rank's particles on the faces of the fault, from which their
@@ -52,7 +52,8 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   double memory_usage() override;
 
   ComputeLSMEvents *owner = nullptr;    // set by the compute that made this fix
-  std::vector<double> kept;    // state of the compute in the last restart file, read or written
+  std::vector<double>
+      saved_state;    // state of the compute in the last restart file, read or written
 
  private:
   double *x_before = nullptr;    // stored x of each particle; null if the faces are not needed

@@ -6,8 +6,6 @@
 #include "input.h"
 #include "lsm_script.h"
 
-#include <string>
-
 using namespace LAMMPS_NS;
 
 void IncludeBeside::command(int narg, char **arg)

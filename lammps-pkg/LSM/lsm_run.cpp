@@ -31,7 +31,7 @@ void LSMRun::command(int narg, char **arg)
                {"after", &first},
                {"earlier", LSM::Words{&earlier, {"keep", "refuse", "remove"}}},
                {"unused", LSM::Action{1, [&] { unused.emplace_back(in.text()); }}},
-               {"note", LSM::Action{1, [&] { noted.emplace_back(in.text()); }}}});
+               {"note", LSM::Action{1, [&] { further_variables.emplace_back(in.text()); }}}});
   in.require({"prefix", "every"});
 
   const auto every = static_cast<bigint>(of_piece), after = static_cast<bigint>(first);
@@ -72,7 +72,7 @@ void LSMRun::command(int narg, char **arg)
 void LSMRun::save(const std::string &name)
 {
   LSM::text_io::Parameters settings;
-  for (const std::string &one : noted)
+  for (const std::string &one : further_variables)
     settings.emplace_back(one, LSMScript::value_of(lmp, one, "lsm_run"));
   for (auto &one : LSMScript::listed(lmp, LSMScript::SAVED)) settings.push_back(std::move(one));
   LSMScript::save_restart(lmp, prefix + ".restart." + name, settings, false);

@@ -12,7 +12,6 @@ CommandStyle(lsm_run,LSMRun);
 
 #include "command.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,8 @@ class LSMRun : public Command {
 
  private:
   std::string prefix;
-  std::vector<std::string> noted;     // further variables for the .info file
-  std::vector<std::string> unused;    // files that this run does not write
+  std::vector<std::string> further_variables;    // for the .info file
+  std::vector<std::string> unused;               // files that this run does not write
   enum { KEEP, REFUSE, REMOVE };
   int earlier = KEEP;    // what becomes of files of an earlier run
 

@@ -22,7 +22,6 @@
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 

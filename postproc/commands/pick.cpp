@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 #include "aftershock_figure.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,6 @@
 #include "magnitude_figure.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Parts of gnuplot scripts: quoted text, axes, panels and curves.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 

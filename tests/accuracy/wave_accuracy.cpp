@@ -3,7 +3,6 @@
 // and S-waves of the random packing, as functions of their length and direction. Runs lmp and
 // writes waves_lattice.csv, waves_rayleigh.csv and waves_packing.csv. Usage: lsm_accuracy_waves
 // FOLDER full|quick LMP SCENES
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -2,9 +2,7 @@
 // Dynamic ruptures of a flat fault in the regular lattice, compared with a boundary integral method
 // and a closed form.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 

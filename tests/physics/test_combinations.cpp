@@ -2,7 +2,6 @@
 // Styles of the package combined with others of LAMMPS: each combination works, or one line
 // explains why it does not.
 #include <cstdlib>
-#include <fstream>
 
 #include "disc_scene.h"
 #include "lmp_runner.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dashpots of links and contacts (kelvin-voigt): closed forms, order, stability limit, energy, and
 // their use in runs.
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>

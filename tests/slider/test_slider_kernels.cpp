@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <vector>
 
 #include "scalar_chain.h"
 #include "slider_chain.h"

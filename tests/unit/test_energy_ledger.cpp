@@ -89,7 +89,7 @@ TEST(EnergyLedger, GoesOnFromARestart) {
   at_restart.within = 0.0625;
   std::vector<double> file;
   StateWriter to(file);
-  const EnergyLedger kept = first.kept(at_restart);
+  const EnergyLedger kept = first.for_restart(at_restart);
   EnergyLedger::visit(kept, to);
   EXPECT_EQ(file.size(), 5u);
   EnergyLedger second;

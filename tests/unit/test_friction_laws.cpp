@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 #include <type_traits>
 
 #include "friction/friction_laws.h"

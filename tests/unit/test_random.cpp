@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <string>
 
 #include "numerics/random.h"
 #include "unit_files.h"

@@ -14,7 +14,6 @@
 #include <iterator>
 #include <locale>
 #include <string>
-#include <vector>
 
 namespace unit {
 

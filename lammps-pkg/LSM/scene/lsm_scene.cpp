@@ -90,7 +90,7 @@ namespace LSMScene {
     };
 
     if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
-      for (const auto &link : links->held())
+      for (const auto &link : links->current_links())
         add(link.i, link.j, force->newton_bond, link.stiffness, 0.0, link.viscosity);
     for (PairLSMFree *contacts : contact_styles(force)) {
       if (!contacts->list) continue;

@@ -15,7 +15,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -58,16 +57,16 @@ double LSMListPatch::find_margin(const NeighList &of) const
 }
 
 // After an init without a build, the list is the old one, and rows that were added are in use.
-// Other ranks may have noted positions of particles that this one knows as ghosts, so all lists are
-// built.
+// Other ranks may have refreshed positions of particles that this one knows as ghosts, so all lists
+// are built.
 void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
 {
   list = nullptr;
   if (neighbor->ago != 0) {
-    if (noted) ask_for_build();
+    if (may_be_refreshed) ask_for_build();
     return;
   }
-  noted = false;
+  may_be_refreshed = false;
   rows.clear();
   sorted.clear();
   wants_build = false;
@@ -77,16 +76,16 @@ void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
   const double trigger = 0.5 * neighbor->skin - LSMNearPairs::SKIN;
   if (!(trigger > 0.0 && margin > 0.5 * neighbor->skin)) return;
   list = &of;
-  noted = true;
+  may_be_refreshed = true;
   trigger_sq = trigger * trigger;
   const int count = atom->nlocal + atom->nghost;
-  built.assign(atom->x[0], atom->x[0] + 3 * static_cast<std::size_t>(count));
-  held = built;
+  x_build.assign(atom->x[0], atom->x[0] + 3 * static_cast<std::size_t>(count));
+  x_listed = x_build;
 }
 
 bool LSMListPatch::is_far(int i) const
 {
-  return distsq3(atom->x[i], &held[3 * static_cast<std::size_t>(i)]) > trigger_sq;
+  return distsq3(atom->x[i], &x_listed[3 * static_cast<std::size_t>(i)]) > trigger_sq;
 }
 
 const std::vector<LSMListPatch::Added> &LSMListPatch::look_at(const std::vector<int> &particles)
@@ -103,14 +102,14 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::look_at_all(int first)
 {
   far.clear();
   if (list)
-    for (int i = static_cast<int>(held.size() / 3) - 1; i >= first && far.size() <= MOST; i--)
+    for (int i = static_cast<int>(x_listed.size() / 3) - 1; i >= first && far.size() <= MOST; i--)
       if (is_far(i)) far.push_back(i);
   return add_pairs_of_far();
 }
 
-// The position of a particle that has gone too far is not noted, so that LAMMPS' check finds it and
-// all lists are built. For a ghost it may have been noted on the rank that owns it; then this rank
-// makes the check find a particle that has moved infinitely far.
+// The position of a particle that has gone too far is not refreshed, so that LAMMPS' check finds it
+// and all lists are built. For a ghost it may have been refreshed on the rank that owns it; then
+// this rank makes the check find a particle that has moved infinitely far.
 const std::vector<LSMListPatch::Added> &LSMListPatch::add_pairs_of_far()
 {
   added.clear();
@@ -119,8 +118,8 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::add_pairs_of_far()
     const std::size_t place = 3 * static_cast<std::size_t>(i);
     const bool ghost = i >= atom->nlocal;
     const double most = margin * (ghost ? 1.0 + 1e-9 : 1.0);    // ghosts are rounded otherwise
-    if (!many && distsq3(atom->x[i], &built[place]) < most * most) {
-      std::copy_n(atom->x[i], 3, &held[place]);
+    if (!many && distsq3(atom->x[i], &x_build[place]) < most * most) {
+      std::copy_n(atom->x[i], 3, &x_listed[place]);
       if (!ghost) std::copy_n(atom->x[i], 3, neighbor->get_xhold()[i]);
       add_pairs_of(i);
     } else
@@ -137,14 +136,14 @@ void LSMListPatch::ask_for_build()
 
 void LSMListPatch::sort_into_cells()
 {
-  const int count = static_cast<int>(built.size() / 3);
+  const int count = static_cast<int>(x_build.size() / 3);
   // particles have moved by up to a margin, or a little more because of rounding
   cell = (neighbor->cutneighmax + 2.0 * margin) * (1.0 + 1e-6);
   for (int c = 0; c < 2; c++) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (int i = 0; i < count; i++) {
-      lowest = std::min(lowest, built[3 * static_cast<std::size_t>(i) + c]);
-      highest = std::max(highest, built[3 * static_cast<std::size_t>(i) + c]);
+      lowest = std::min(lowest, x_build[3 * static_cast<std::size_t>(i) + c]);
+      highest = std::max(highest, x_build[3 * static_cast<std::size_t>(i) + c]);
     }
     // with a row of empty cells on each side, however positions are rounded
     corner[c] = lowest - 1.5 * cell;
@@ -153,7 +152,7 @@ void LSMListPatch::sort_into_cells()
   std::vector<int> cell_of(count);
   first_in.assign(static_cast<std::size_t>(cells[0]) * cells[1] + 1, 0);
   for (int i = 0; i < count; i++) {
-    cell_of[i] = find_cell(&built[3 * static_cast<std::size_t>(i)]);
+    cell_of[i] = find_cell(&x_build[3 * static_cast<std::size_t>(i)]);
     first_in[cell_of[i] + 1]++;
   }
   std::partial_sum(first_in.begin(), first_in.end(), first_in.begin());
@@ -175,15 +174,15 @@ void LSMListPatch::add_pairs_of(int i)
 {
   if (sorted.empty()) sort_into_cells();
   const double *const radius = atom->radius;
-  const int middle = find_cell(&built[3 * static_cast<std::size_t>(i)]);
+  const int middle = find_cell(&x_build[3 * static_cast<std::size_t>(i)]);
   for (int row = -1; row <= 1; row++) {
     const int *const first = &first_in[middle + row * cells[0] - 1];
     for (int n = first[0]; n < first[3]; n++) {
       const int j = sorted[n];
       if (j == i || (i >= atom->nlocal && j >= atom->nlocal)) continue;
       const double cut = radius[i] + radius[j] + neighbor->skin;
-      if (distsq3(&held[3 * static_cast<std::size_t>(i)], &held[3 * static_cast<std::size_t>(j)]) <=
-          cut * cut)
+      if (distsq3(&x_listed[3 * static_cast<std::size_t>(i)],
+                  &x_listed[3 * static_cast<std::size_t>(j)]) <= cut * cut)
         add_pair(std::min(i, j), std::max(i, j));
     }
   }

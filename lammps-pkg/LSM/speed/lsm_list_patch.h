@@ -43,12 +43,13 @@ class LSMListPatch : protected Pointers {
  private:
   NeighList *list = nullptr;    // null while nothing can be added
   const LSMTypePairs<int> *active = nullptr;
-  double margin = 0.0;          // a particle whose pairs were added is nearer to `built`
-  double trigger_sq = 0.0;      // square of the displacement from which pairs are added
-  std::vector<double> built;    // positions when the list was built
-  std::vector<double> held;     // the same, later ones where pairs were added
-  bool wants_build = false;     // LAMMPS has to build all lists
-  bool noted = false;           // positions may have been noted since the last build
+  double margin = 0.0;             // a particle whose pairs were added is nearer to x_build
+  double trigger_sq = 0.0;         // square of the displacement from which pairs are added
+  std::vector<double> x_build;     // positions when the list was built
+  std::vector<double> x_listed;    // the same, later ones where pairs were added
+  bool wants_build = false;        // LAMMPS has to build all lists
+  bool may_be_refreshed =
+      false;    // positions may have been refreshed since the last build, on any rank
   std::vector<int> far;
   std::vector<Added> added;
   // Particles by the square cell, along x and y, in which they were when the list was built. Sorted

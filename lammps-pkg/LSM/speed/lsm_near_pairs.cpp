@@ -57,7 +57,7 @@ void LSMNearPairs::update(NeighList &of, const double *radii)
   } else {
     // Strays are not looked for if so few pairs are listed that all of them are kept.
     const auto &added = what == Due::choice ? patch.look_at_all(0)
-                        : held.empty()      ? patch.look_at_all(lmp_->atom->nlocal)
+                        : x_chosen.empty()  ? patch.look_at_all(lmp_->atom->nlocal)
                                             : patch.look_at(strays);
     for (const LSMListPatch::Added &pair : added) {
       if (store) store->add_pair(pair.i, pair.jj);
@@ -75,12 +75,13 @@ void LSMNearPairs::update(NeighList &of, const double *radii)
   read_states();
 }
 
-// the largest distance of the particles in [first, last) from the positions that are held
+// the largest distance of the particles in [first, last) from the positions x_chosen
 double LSMNearPairs::displacement(const double *x, size_t first, size_t last) const
 {
   double most = 0.0;    // square
   for (size_t n = 3 * first; n < 3 * last; n += 3) {
-    const double dx = x[n] - held[n], dy = x[n + 1] - held[n + 1], dz = x[n + 2] - held[n + 2];
+    const double dx = x[n] - x_chosen[n], dy = x[n + 1] - x_chosen[n + 1],
+                 dz = x[n + 2] - x_chosen[n + 2];
     most = std::max(most, dx * dx + dy * dy + dz * dz);
   }
   return sqrt(most);
@@ -88,13 +89,13 @@ double LSMNearPairs::displacement(const double *x, size_t first, size_t last) co
 
 void LSMNearPairs::hold_strays(const double *x)
 {
-  for (const size_t i : strays) std::copy_n(x + 3 * i, 3, &held[3 * i]);
+  for (const size_t i : strays) std::copy_n(x + 3 * i, 3, &x_chosen[3 * i]);
 }
 
 // Adds the particles in [first, last) that have moved far to the strays, unless they are many.
 bool LSMNearPairs::find_strays(const double *x, size_t first, size_t last)
 {
-  const size_t most = MIN_STRAYS + held.size() / 3 / PARTICLES_PER_STRAY;
+  const size_t most = MIN_STRAYS + x_chosen.size() / 3 / PARTICLES_PER_STRAY;
   for (size_t i = first; i < last; i++)
     if (displacement(x, i, i + 1) > STRAY) {
       if (strays.size() == most) return false;
@@ -112,8 +113,8 @@ LSMNearPairs::Due LSMNearPairs::due(const double *x)
 {
   const std::vector<double> &moves = travel.since_last();
   const int nlocal = lmp_->atom->nlocal, all = nlocal + lmp_->atom->nghost;
-  if (lmp_->neighbor->ncalls != built) {
-    built = lmp_->neighbor->ncalls;
+  if (lmp_->neighbor->ncalls != build_number) {
+    build_number = lmp_->neighbor->ncalls;
     listed.clear();
     for (int ii = 0; ii < list->inum; ii++) {
       const int i = list->ilist[ii];
@@ -121,11 +122,11 @@ LSMNearPairs::Due LSMNearPairs::due(const double *x)
         listed.push_back({i, jj, list->firstneigh[i][jj] & NEIGHMASK});
     }
     moved.resize(moves.size());
-    held.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(all) : 0);
+    x_chosen.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(all) : 0);
     first_of.clear();
     return Due::new_list;
   }
-  if (held.empty()) return Due::nothing;
+  if (x_chosen.empty()) return Due::nothing;
   hold_strays(x);
   double ghosts = displacement(x, nlocal, all);
   const auto too_far = [&ghosts](double move) {
@@ -151,7 +152,7 @@ LSMNearPairs::Due LSMNearPairs::due(const double *x)
 
 void LSMNearPairs::index_listed()
 {
-  first_of.assign(held.size() / 3 + 1, 0);
+  first_of.assign(x_chosen.size() / 3 + 1, 0);
   for (const Listed &pair : listed) {
     first_of[pair.i + 1]++;
     first_of[pair.j + 1]++;
@@ -200,13 +201,13 @@ void LSMNearPairs::keep_pairs_of_strays()
 // Whether a pair is near is unpredictable for the processor, so the loop has no branches.
 void LSMNearPairs::choose(const double *x)
 {
-  std::copy_n(x, held.size(), held.begin());
+  std::copy_n(x, x_chosen.size(), x_chosen.begin());
   std::fill(moved.begin(), moved.end(), 0.0);
   strays.clear();
   admitted = 0;
   is_kept.assign(listed.size(), 0);
   chosen.resize(listed.size());
-  const bool all = held.empty();
+  const bool all = x_chosen.empty();
   const double reach = std::max(state_reach, 1.0);
   int most = 0;
   for (int n = 0; n < static_cast<int>(listed.size()); n++) {
@@ -232,7 +233,7 @@ void LSMNearPairs::choose(const double *x)
 void LSMNearPairs::read_states()
 {
   if (!store) return;
-  states_build = built;
+  states_build = build_number;
   for (; known_states < count(); known_states++) {
     const Pair &pair = pairs[known_states];
     double *const h = state(known_states);

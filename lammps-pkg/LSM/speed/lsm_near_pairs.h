@@ -53,7 +53,7 @@ class LSMNearPairs : public LSMContacts {
   /// Writes states into the store, if they have changed. To be called before it is read.
   void write_states();
   /// Forgets all, for a list of another kind, or because the store has changed.
-  void forget() { built = -1; }
+  void forget() { build_number = -1; }
   /// Finds again which pairs are across the fault, for groups that change.
   void find_sides();
   /// Whether a pair must not interact, for lists that hold such pairs.
@@ -81,12 +81,12 @@ class LSMNearPairs : public LSMContacts {
   bigint states_build = -1;    // number of the build of the list that the states belong to
   int known_states = 0;        // pairs whose states were read
 
-  std::vector<Listed> listed;    // the whole neighbor list, and behind it what was added since
-  std::vector<char> is_kept;     // of each listed pair
-  bigint built = -1;             // number of the build of the list
-  std::vector<double> held;     // positions when the pairs were chosen, those of strays later ones;
-                                // empty where all pairs are kept
-  std::vector<double> moved;    // bounds of displacements since then, without those of strays
+  std::vector<Listed> listed;      // the whole neighbor list, and behind it what was added since
+  std::vector<char> is_kept;       // of each listed pair
+  bigint build_number = -1;        // number of the build of the list
+  std::vector<double> x_chosen;    // positions when the pairs were chosen, those of strays later
+                                   // ones; empty where all pairs are kept
+  std::vector<double> moved;       // bounds of displacements since then, without those of strays
   // The few particles, ghosts among them, that have moved so far since the pairs were chosen that
   // all of their pairs are kept; their motion does not matter then.
   std::vector<int> strays;

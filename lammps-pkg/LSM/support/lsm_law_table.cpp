@@ -8,7 +8,6 @@
 
 #include "friction/friction_laws.h"
 
-#include <algorithm>
 #include <cstring>
 #include <iterator>
 

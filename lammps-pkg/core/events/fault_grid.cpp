@@ -34,23 +34,23 @@ std::vector<double> face_displacements(const FaultGrid &grid, const double *sums
                                        std::int64_t steps) {
   const auto bins = static_cast<std::size_t>(grid.bins);
   std::vector<double> mean(bins, 0.0);
-  std::vector<std::size_t> held;  // bins with particles
+  std::vector<std::size_t> occupied;  // bins with particles
   for (std::size_t b = 0; b < bins; ++b) {
     const double *const s = sums + fault_fields * b;
     if (!(s[1] > 0.0)) continue;
     mean[b] = s[0] / s[1] * static_cast<double>(steps);
-    held.push_back(b);
+    occupied.push_back(b);
   }
-  if (held.empty()) return mean;
+  if (occupied.empty()) return mean;
   if (!grid.ring) {
-    std::fill(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(held.front()),
-              mean[held.front()]);
-    std::fill(mean.begin() + static_cast<std::ptrdiff_t>(held.back()), mean.end(),
-              mean[held.back()]);
+    std::fill(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(occupied.front()),
+              mean[occupied.front()]);
+    std::fill(mean.begin() + static_cast<std::ptrdiff_t>(occupied.back()), mean.end(),
+              mean[occupied.back()]);
   }
-  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < held.size(); ++k) {
-    const std::size_t left = held[k];
-    const std::size_t right = k + 1 < held.size() ? held[k + 1] : held[0] + bins;
+  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < occupied.size(); ++k) {
+    const std::size_t left = occupied[k];
+    const std::size_t right = k + 1 < occupied.size() ? occupied[k + 1] : occupied[0] + bins;
     const double a = mean[left], b = mean[right % bins];
     const auto distance = static_cast<double>(right - left);
     for (std::size_t open = left + 1; open < right; ++open)

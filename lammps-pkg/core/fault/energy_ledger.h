@@ -69,12 +69,12 @@ class EnergyLedger {
 
   /// The state for a restart file, with the works so far: the styles of the run that continues from
   /// it do not know them.
-  EnergyLedger kept(const EnergyTerms &now) const {
-    EnergyLedger kept = *this;
-    kept.friction_before_ = now.friction;
-    kept.broken_before_ = now.broken;
-    kept.within_before_ = now.within;
-    return kept;
+  EnergyLedger for_restart(const EnergyTerms &now) const {
+    EnergyLedger saved = *this;
+    saved.friction_before_ = now.friction;
+    saved.broken_before_ = now.broken;
+    saved.within_before_ = now.within;
+    return saved;
   }
   template <class Self, class State>
   static void visit(Self &self, State &state) {

@@ -507,7 +507,7 @@ Partners partners_of(const Packing &packing) {
   return partners;
 }
 
-/// Finds discs with fewer than HELD_LINKS links. With `remove`, links to such discs do not count.
+/// Finds discs with fewer than ENOUGH_LINKS links. With `remove`, links to such discs do not count.
 std::vector<char> with_few_links(const Packing &packing, const Partners &partners, bool remove) {
   std::vector<char> few(partners.size(), 0);
   std::vector<std::size_t> links, check(partners.size());
@@ -516,7 +516,7 @@ std::vector<char> with_few_links(const Packing &packing, const Partners &partner
   while (!check.empty()) {
     const std::size_t i = check.back();
     check.pop_back();
-    if (few[i] || packing.discs[i].plate || links[i] >= HELD_LINKS) continue;
+    if (few[i] || packing.discs[i].plate || links[i] >= ENOUGH_LINKS) continue;
     few[i] = 1;
     if (!remove) continue;
     for (const std::size_t j : partners[i]) {
@@ -595,32 +595,32 @@ struct Support {
 };
 
 std::vector<Support> supports(double length, const Packing &packing) {
-  std::vector<Support> held(packing.discs.size());
+  std::vector<Support> support(packing.discs.size());
   for (const auto &l : packing.links) {
     const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
     const auto [ex, ey] = link_vector(length, packing.discs[i], packing.discs[j]);
     const double d2 = ex * ex + ey * ey;
     for (const std::size_t k : {i, j}) {
-      held[k].xx += ex * ex / d2;
-      held[k].xy += ex * ey / d2;
-      held[k].yy += ey * ey / d2;
-      ++held[k].links;
+      support[k].xx += ex * ex / d2;
+      support[k].xy += ex * ey / d2;
+      support[k].yy += ey * ey / d2;
+      ++support[k].links;
     }
   }
-  return held;
+  return support;
 }
 
 void measure(const PackingSettings &s, Packing &result) {
   double area = 0.0;
   bool first = true;
-  const std::vector<Support> held = supports(s.length, result);
+  const std::vector<Support> support = supports(s.length, result);
   for (std::size_t i = 0; i < result.discs.size(); ++i) {
     const Disc &d = result.discs[i];
     area += d.r * d.r;
     result.rmin_found = i == 0 ? d.r : std::min(result.rmin_found, d.r);
     if (fault_gap(s, d) < s.link_gap) ++result.fault_tangent[d.block];
     if (d.plate) continue;
-    const double softest = held[i].softest();
+    const double softest = support[i].softest();
     result.weakest = first ? softest : std::min(result.weakest, softest);
     first = false;
   }
@@ -663,14 +663,14 @@ int most_neighbours(double radius, double r) {
 
 std::vector<double> masses_for_step(const Packing &packing, double length, double dt,
                                     double stiffness, double kt) {
-  const std::vector<Support> held = supports(length, packing);
+  const std::vector<Support> support = supports(length, packing);
   double least = std::numeric_limits<double>::infinity();
   for (const Disc &d : packing.discs) least = std::min(least, d.r);
   std::vector<double> masses;
   for (std::size_t i = 0; i < packing.discs.size(); ++i) {
-    const int room = most_neighbours(packing.discs[i].r, least) - held[i].links;
+    const int room = most_neighbours(packing.discs[i].r, least) - support[i].links;
     const double felt =
-        stiffness * held[i].stiffest() + std::max(0, room) * std::max(stiffness, kt);
+        stiffness * support[i].stiffest() + std::max(0, room) * std::max(stiffness, kt);
     masses.push_back(0.5 * dt * dt * felt);
   }
   return masses;

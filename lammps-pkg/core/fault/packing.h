@@ -40,7 +40,7 @@ struct Disc {
 /// Number of links that a disc needs to be held. Two links hold a disc that does not rotate only
 /// while it is pushed into the wedge between them †: such discs were seen to oscillate and hop, see
 /// doc/create_lsm_fault.rst.
-constexpr int HELD_LINKS = 3;
+constexpr int ENOUGH_LINKS = 3;
 
 /// The result: discs in sections of 64 rmax along x, in each section first those of the fault zone,
 /// then the blocks, then the plates, each sorted by x; links (i < j) sorted by i, then j.
@@ -51,7 +51,7 @@ struct Packing {
   double area_fraction = 0.0;     ///< area of the discs / (length * width)
   double rmin_found = 0.0;        ///< smallest radius in the packing
   int fault_tangent[2] = {0, 0};  ///< discs of the lower and upper block tangent to the fault line
-  int loose = 0;  ///< discs with fewer than HELD_LINKS links, or whose links do not lead to their
+  int loose = 0;  ///< discs with fewer than ENOUGH_LINKS links, or whose links do not lead to their
                   ///< plate; those of the plates, which move as one body, do not count. With
                   ///< remove_loose they are gone
   int loose_tangent = 0;  ///< those of them that were tangent to the fault line

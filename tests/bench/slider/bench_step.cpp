@@ -6,7 +6,6 @@
 #include <fftw3.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "slider_chain.h"
 #include "slider_stiffness.h"
