@@ -53,9 +53,9 @@ struct RunState : EventCounts {
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 
-/// Reads a checkpoint of a run with the same settings, but for those that may change (header_keys.h).
-/// \throws std::runtime_error with one line if the file is damaged, or of another version, or of a
-/// run with other settings, of which the first is named
+/// Reads a checkpoint of a run with the same settings, but for those that may change
+/// (header_keys.h). \throws std::runtime_error with one line if the file is damaged, or of another
+/// version, or of a run with other settings, of which the first is named
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);
 
 }  // namespace Slider

@@ -43,10 +43,11 @@ class Fit : public Statistic {
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);
     group.flag("--no-comparison", no_comparison_, "Leave out the rival laws");
-    group.flag("--roll-off", roll_off_,
-               "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
-               "on, taken as continuous also where magnitudes are in bins, and 2 ln L of d = 1 over "
-               "a power law without end †");
+    group.flag(
+        "--roll-off", roll_off_,
+        "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
+        "on, taken as continuous also where magnitudes are in bins, and 2 ln L of d = 1 over "
+        "a power law without end †");
     group.flag("--scaling", scaling_,
                "Characteristic size <s^2>/<s> against length for each model: a power law, no "
                "dependence, or growth that ends at a length †");

@@ -150,6 +150,7 @@ def page_results(lmp, tmp_path_factory):
         pytest.skip("liblammps.so is not built")
     code = "".join(re.findall(r"^```python\n(.*?)^```$", (SOURCE / "inputs/python.md").read_text(), re.S | re.M))
     code += """
+import numpy as np
 drop = dict(zip(series["step"], series["pe"]))
 assert len(events) > 0 and len(series) > 3000 and len(ruptures) > 0 and (events["size"] > 0).all()
 assert np.allclose([drop[a] - drop[b] for a, b in zip(events["step_start"], events["step_end"])], events["size"], rtol=1e-9, atol=1e-15)

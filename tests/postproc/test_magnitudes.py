@@ -320,8 +320,8 @@ def test_times_of_0_are_counted(postproc, work):
     quakes("q.csv", ["3.0"] * 40)
     lines = Path("q.csv").read_text().splitlines(keepends=True)
     Path("q.csv").write_text("".join(lines + lines[-1:] * 2))
-    run(postproc, "intervals q.csv -o o --no-picture --replicas 0 --shuffles 0").warned(
-        "^postproc: .*: 2 of 41 times are 0, left out of densities and fits$")
+    run(postproc,
+        "intervals q.csv -o o --no-picture --replicas 0 --shuffles 0").warned("^postproc: .*: 2 of 41 times are 0, left out of densities and fits$")
 
 
 # ---------------------------------------------------------------- what counts as the data's fault

@@ -137,8 +137,7 @@ std::string bad_value(const std::string &key, const std::string &value) {
   PickerReading reading{};
   if (known->type == Type::reading && !from_string(value, reading))
     return expected(choices(reading));
-  if (known->type == Type::yes_no && value != "yes" && value != "no")
-    return expected("yes or no");
+  if (known->type == Type::yes_no && value != "yes" && value != "no") return expected("yes or no");
   return {};
 }
 
