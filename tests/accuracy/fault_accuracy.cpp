@@ -2,6 +2,8 @@
 // Lattice solid fault: error against run time of one event and of waves; the size above which the
 // catalogue of long runs depends neither on the time step nor on the number of ranks; loose discs;
 // picker readings; summation errors. Runs lmp and writes tables fault_*.csv.
+// In C++, as friction is solved in other ways over millions of steps (friction_schemes.h), sums are
+// compared with those in long double, and statistics are shared with the block-slider's.
 // Usage: lsm_accuracy_fault FOLDER full|quick LMP INPUTS SCENES MPIEXEC...
 // LSM_ACCURACY_PARTS: names of the parts to run, separated by commas; long runs that were completed
 // in FOLDER/work with the same command are not repeated then.
@@ -78,6 +80,7 @@ struct Run {
   double seconds = 0.0;                ///< CPU time of the last 'run' command on one rank
   double cpu = 0.0;                    ///< CPU time of the whole run on all ranks, if it has a name
   std::map<std::string, double> last;  ///< last thermo row
+  std::vector<double> second;          ///< second column of all thermo rows
   std::map<std::string, double> printed;  ///< lines "name = number"
 };
 
@@ -135,6 +138,7 @@ Run run(const std::string &script, const Variables &variables, int ranks = 1,
     } else if (!columns.empty() && words.size() == columns.size()) {
       for (std::size_t n = 0; n < words.size(); ++n)
         result.last[columns[n]] = std::strtod(words[n].c_str(), nullptr);
+      if (words.size() > 1) result.second.push_back(result.last[columns[1]]);
     }
   }
   if (status != 0) throw std::runtime_error(error.empty() ? command + " failed" : error);
@@ -145,23 +149,28 @@ Run event_run(Variables variables, int ranks = 1) {
   return run(scenes + "/fault_event.in", std::move(variables), ranks);
 }
 
-/// Rows of numbers of a dump with one snapshot.
-std::vector<std::vector<double>> dumped(const std::string &file) {
+using Rows = std::vector<std::vector<double>>;
+
+/// Rows of numbers of a dump, by snapshot.
+std::vector<Rows> all_dumped(const std::string &file) {
   std::ifstream in(work(file));
-  std::vector<std::vector<double>> rows;
+  std::vector<Rows> all;
   bool inside = false;
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("ITEM:", 0) == 0) {
       inside = line.rfind("ITEM: ATOMS", 0) == 0 || line.rfind("ITEM: ENTRIES", 0) == 0;
+      if (inside) all.emplace_back();
       continue;
     }
     std::istringstream split(line);
     if (inside)
-      rows.emplace_back(std::istream_iterator<double>(split), std::istream_iterator<double>());
+      all.back().emplace_back(std::istream_iterator<double>(split),
+                              std::istream_iterator<double>());
   }
-  if (rows.empty()) throw std::runtime_error(work(file) + ": nothing in it");
-  return rows;
+  if (all.empty() || all.front().empty()) throw std::runtime_error(work(file) + ": nothing in it");
+  return all;
 }
+Rows dumped(const std::string &file) { return all_dumped(file).front(); }
 
 /// Two columns of a dump with one snapshot, by particle.
 std::map<int, std::array<double, 2>> snapshot(const std::string &file) {
@@ -975,22 +984,6 @@ void leaps() {
 
 // ---- sums ---------------------------------------------------------------------------------------
 
-/// The numbers in the last column of a local dump, by snapshot.
-std::vector<std::vector<double>> local_dump(const std::string &file) {
-  std::ifstream in(work(file));
-  std::vector<std::vector<double>> all;
-  bool inside = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("ITEM:", 0) == 0) {
-      inside = line.rfind("ITEM: ENTRIES", 0) == 0;
-      if (inside) all.emplace_back();
-      continue;
-    }
-    if (inside) all.back().push_back(std::strtod(line.c_str(), nullptr));
-  }
-  return all;
-}
-
 void sums() {
   const std::string fault = quick ? "240" : "1890";
   std::ofstream(work("sums.in")) << R"(units lj
@@ -1026,31 +1019,16 @@ run 300
 )";
   Table table("precision.csv",
               "links,ranks,steps,pe_links,relative_error,change_over_100_steps,error_of_change");
-  const std::string exact_file = "sums.link";
   for (int ranks : {1, 2, 4}) {
     // The run on each number of ranks is compared with the long double sum of its own energies.
-    run("sums.in", {{"write", "yes"}}, ranks);
-    const auto energies = local_dump(exact_file);
-    std::ifstream in(work("output.txt"));
-    std::vector<double> printed;
-    bool table_of_thermo = false;
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream split(line);
-      const std::vector<std::string> words{std::istream_iterator<std::string>(split), {}};
-      if (words.size() == 2 && words[0] == "Step") {
-        table_of_thermo = true;
-      } else if (!words.empty() && words[0] == "Loop") {
-        table_of_thermo = false;
-      } else if (table_of_thermo && words.size() == 2) {
-        printed.push_back(std::strtod(words[1].c_str(), nullptr));
-      }
-    }
+    const std::vector<double> printed = run("sums.in", {{"write", "yes"}}, ranks).second;
+    const std::vector<Rows> energies = all_dumped("sums.link");
     if (printed.size() != energies.size())
       throw std::runtime_error("sums.in: snapshots and thermo rows differ");
     long double before = 0.0L;
     for (std::size_t n = 0; n < energies.size(); ++n) {
       long double sum = 0.0L;
-      for (double e : energies[n]) sum += e;
+      for (const std::vector<double> &row : energies[n]) sum += row.back();
       if (n > 0)
         table.row("%zu,%d,%zu,%.17g,%.3g,%.4g,%.3g\n", energies[n].size(), ranks, 100 * n,
                   printed[n], static_cast<double>((printed[n] - sum) / sum),

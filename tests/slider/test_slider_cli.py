@@ -4,7 +4,9 @@ import gzip
 import json
 import math
 import os
+import re
 import signal
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -117,6 +119,21 @@ def test_a_finished_run_is_continued_for_longer(slider, ran, events):
     ran(settings, "--steps 1200000 --resume", PART)
     for name in "csv", "pe", "chk":
         same_bytes(f"whole.{name}", f"part.{name}")
+
+
+def test_a_checkpoint_of_another_program_version(slider, ran):
+    """Continues, as files may be of another one (header_keys.h); any other setting may not differ."""
+    ran(SHORT, "--steps 400000 --catalogue whole.csv")
+    ran(SHORT, "--steps 200000", PART)
+    for key, value, said in (("velocity", "0.04", "checkpoint has 'velocity = 0.04', expected 'velocity = 0.05'"), ("program", "slider_cli 0.9", "")):
+        state = re.sub(rf"(?m)^{key} = .*$".encode(), f"{key} = {value}".encode(), Path("part.chk").read_bytes().split(b"\n", 1)[1])
+        Path("other.chk").write_bytes(f"slider_cli checkpoint 6 {zlib.crc32(state)}\n".encode() + state)
+        words = f"{SHORT} --steps 400000 --resume {PART.replace('part.chk', 'other.chk')}"
+        if said:
+            refused(slider, words, said)
+        else:
+            run(slider, words)
+    same("whole.csv", "part.csv")
 
 
 def test_resume_other_kernel(slider, ran):
