@@ -166,6 +166,7 @@ def test_an_end_at_any_moment_leaves_whole_files(runs, work, faults, number):
     script, out = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), work / "out"
     run(script, "--events 0.01 --ruptures 0.01", out, runs)
     old = snapshot(out)
+    shutil.copytree(out, work / "former")
     run(script, out, runs)
     new = snapshot(out)
     assert len(old) == 4 and not set(old.items()) & set(new.items())
@@ -173,7 +174,7 @@ def test_an_end_at_any_moment_leaves_whole_files(runs, work, faults, number):
     calls = traced.calls(out, runs, seen=".new")
     assert sum(name == "rename" for name, _ in calls) == 4
     for name, n in calls:
-        run(script, "--events 0.01 --ruptures 0.01", out, runs)
+        shutil.copytree(work / "former", out, dirs_exist_ok=True)
         ended = traced.inject(f"signal={number}", name, n, out, runs)
         assert ended.status != 0
         left = {path: content for path, content in snapshot(out).items() if not path.endswith(".new")}
