@@ -20,10 +20,11 @@ steps=${1:-480000}
 }
 build=${LSM_BUILD_DIR:-$root/build}
 
-bin=${LSM_BIN:-$build/bin}
+bin=${LSM_BIN:-$build/bin} lmp=lmp
 if [ -z "${LSM_BIN:-}" ]; then
   . "$root/lammps-pkg/cmake/debian-packages.sh"
-  build_programs "$root" "$build" lmp postproc
+  lmp=lmp_fault # half of LAMMPS' objects
+  build_programs "$root" "$build" $lmp postproc
 fi
 packages_took=${packages_took:-$SECONDS}
 programs_took=$((SECONDS - packages_took))
@@ -45,7 +46,7 @@ others=(first.*)
 flock -w 2 9 || refuse "a first-catalogue.sh works in $run already, expected its end or another folder (LSM_OUTPUT)"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
-mpirun -np 2 "$bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
+mpirun -np 2 "$bin/$lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
 fault_took=$((SECONDS - packages_took - programs_took))
 
 catalogue=first.catalogue.csv

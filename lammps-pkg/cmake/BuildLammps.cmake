@@ -2,16 +2,20 @@
 # Script (cmake -P): configures and builds stock LAMMPS once, as static library and as program.
 # Variables: SOURCE, BUILD (folders), CXX (compiler), OPTIONS (LAMMPS options, '|' between them).
 # The file lsm-complete in BUILD says that the build is whole; with it nothing is done.
+# With ARCHIVE (a file) and AR only the objects that lmp_fault needs are built, into that archive.
 
+include(${CMAKE_CURRENT_LIST_DIR}/FaultStyles.cmake)
 set(stamp ${BUILD}/lsm-complete)
-if(EXISTS ${stamp})
+if(EXISTS ${stamp} AND NOT ARCHIVE)
   message(STATUS "Stock LAMMPS is built already: ${BUILD}")
   return()
 endif()
-file(MAKE_DIRECTORY ${BUILD})
-file(LOCK ${BUILD}/lsm-lock TIMEOUT 3600)
-if(EXISTS ${stamp})
-  return()
+if(NOT EXISTS ${stamp})
+  file(MAKE_DIRECTORY ${BUILD})
+  file(LOCK ${BUILD}/lsm-lock TIMEOUT 3600)
+  if(EXISTS ${stamp} AND NOT ARCHIVE)
+    return()
+  endif()
 endif()
 
 find_program(ninja NAMES ninja ninja-build)
@@ -20,23 +24,51 @@ if(ninja)
 else()
   set(generator -G "Unix Makefiles")
 endif()
-string(REPLACE "|" ";" options "${OPTIONS}")
-message(STATUS "Building stock LAMMPS in ${BUILD} (some minutes, once)")
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -S ${SOURCE}/cmake -B ${BUILD} ${generator} -DCMAKE_CXX_COMPILER=${CXX}
-          -DCMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/PrecompileLammps.cmake -Wno-dev -Wno-deprecated ${options}
-  OUTPUT_FILE ${BUILD}/lsm-configure.log
-  RESULT_VARIABLE rc)
-if(NOT rc EQUAL 0)
-  message(FATAL_ERROR "LAMMPS does not configure: see above and ${BUILD}/lsm-configure.log")
+if(NOT EXISTS ${stamp})
+  string(REPLACE "|" ";" options "${OPTIONS}")
+  message(STATUS "Building stock LAMMPS in ${BUILD} (some minutes, once)")
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -S ${SOURCE}/cmake -B ${BUILD} ${generator} -DCMAKE_CXX_COMPILER=${CXX}
+            -DCMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/PrecompileLammps.cmake -Wno-dev -Wno-deprecated ${options}
+    OUTPUT_FILE ${BUILD}/lsm-configure.log
+    RESULT_VARIABLE rc)
+  if(NOT rc EQUAL 0)
+    message(FATAL_ERROR "LAMMPS does not configure: see above and ${BUILD}/lsm-configure.log")
+  endif()
 endif()
 
 set(jobs "$ENV{CMAKE_BUILD_PARALLEL_LEVEL}")
 if(NOT jobs)
   cmake_host_system_information(RESULT jobs QUERY NUMBER_OF_LOGICAL_CORES)
 endif()
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${BUILD} --parallel ${jobs} RESULT_VARIABLE rc)
+if(ARCHIVE)
+  if(NOT ninja)
+    message(FATAL_ERROR "lmp_fault needs ninja (Debian package ninja-build); build lmp instead")
+  endif()
+  execute_process(COMMAND ${ninja} -C ${BUILD} -t targets all OUTPUT_VARIABLE targets RESULT_VARIABLE rc)
+  string(REGEX MATCHALL "CMakeFiles/lammps(_cold)?\\.dir/[^:\n]*\\.cpp\\.o" all "${targets}")
+  set(objects)
+  foreach(object IN LISTS all)
+    get_filename_component(name ${object} NAME_WE)
+    lsm_is_left_out(${name} left_out)
+    # The last four are compiled with the package's lists of styles.
+    if(NOT left_out AND NOT name MATCHES "^(force|modify|input|lammps)$")
+      list(APPEND objects ${object})
+    endif()
+  endforeach()
+  if(NOT EXISTS ${stamp})
+    execute_process(COMMAND ${ninja} -C ${BUILD} -j ${jobs} ${objects} RESULT_VARIABLE rc)
+  endif()
+  file(REMOVE ${ARCHIVE})
+  if(rc EQUAL 0)
+    execute_process(COMMAND ${AR} qcs ${ARCHIVE} ${objects} WORKING_DIRECTORY ${BUILD} RESULT_VARIABLE rc)
+  endif()
+else()
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${BUILD} --parallel ${jobs} RESULT_VARIABLE rc)
+endif()
 if(NOT rc EQUAL 0)
   message(FATAL_ERROR "LAMMPS does not build: see above")
 endif()
-file(WRITE ${stamp} "${OPTIONS}\n")
+if(NOT ARCHIVE)
+  file(WRITE ${stamp} "${OPTIONS}\n")
+endif()

@@ -2,11 +2,20 @@
 # Script (cmake -P): copies LAMMPS' generated lists of styles and appends a package's headers.
 # Variables: FROM (folder styles of the LAMMPS build), TO, PACKAGE (name of the package), and one
 # list per category with '|' between the headers: HEADERS_pair, HEADERS_bond, HEADERS_fix,
-# HEADERS_compute, HEADERS_command.
+# HEADERS_compute, HEADERS_command; FAULT: without the styles that lmp_fault does without.
 
+include(${CMAKE_CURRENT_LIST_DIR}/FaultStyles.cmake)
 file(MAKE_DIRECTORY ${TO})
-foreach(category IN ITEMS pair bond fix compute command)
+foreach(category IN ITEMS pair bond angle dihedral improper fix compute command)
   file(READ ${FROM}/style_${category}.h list)
+  string(REGEX MATCHALL "#include \"[^\n]*\n" lines "${list}")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE ".*\"(.*)\\.h\".*" "\\1" name "${line}")
+    lsm_is_left_out(${name} left_out)
+    if(FAULT AND left_out)
+      string(REPLACE "${line}" "" list "${list}")
+    endif()
+  endforeach()
   string(REPLACE "|" ";" headers "${HEADERS_${category}}")
   foreach(header IN LISTS headers)
     string(APPEND list "#include \"${header}\"\n")

@@ -37,47 +37,68 @@ set(LSM_LAMMPS_STYLES ${lammps_build}/styles CACHE INTERNAL "LAMMPS' own lists o
 message(STATUS "LAMMPS stock build: ${lammps_build}")
 
 string(REPLACE ";" "|" lammps_options_word "${lammps_options}")
+set(build_lammps ${CMAKE_COMMAND} -DSOURCE=${lammps_source} -DBUILD=${lammps_build} -DCXX=${CMAKE_CXX_COMPILER}
+                 "-DOPTIONS=${lammps_options_word}")
+set(build_scripts ${CMAKE_CURRENT_LIST_DIR}/BuildLammps.cmake ${CMAKE_CURRENT_LIST_DIR}/FaultStyles.cmake)
 add_custom_command(
   OUTPUT ${lammps_stamp}
   BYPRODUCTS ${lammps_library} ${LSM_STOCK_LMP}
-  COMMAND ${CMAKE_COMMAND} -DSOURCE=${lammps_source} -DBUILD=${lammps_build} -DCXX=${CMAKE_CXX_COMPILER}
-          "-DOPTIONS=${lammps_options_word}" -P ${CMAKE_CURRENT_LIST_DIR}/BuildLammps.cmake
+  COMMAND ${build_lammps} -P ${CMAKE_CURRENT_LIST_DIR}/BuildLammps.cmake
   COMMENT "Stock LAMMPS"
   USES_TERMINAL VERBATIM)
-
-# ---- lists of styles with the package's own -------------------------------------------------------
-set(style_stamp ${style_folder}/lsm-styles)
+# What lmp_fault needs of it. The first command of the README builds no more.
+set(lammps_fault_library ${CMAKE_CURRENT_BINARY_DIR}/liblammps_fault.a)
 add_custom_command(
-  OUTPUT ${style_stamp}
-  BYPRODUCTS ${style_lists}
-  COMMAND ${CMAKE_COMMAND} -DFROM=${lammps_build}/styles -DTO=${style_folder} -DPACKAGE=LSM ${style_arguments} -P
-          ${CMAKE_CURRENT_LIST_DIR}/ExtendStyleLists.cmake
-  COMMAND ${CMAKE_COMMAND} -E touch ${style_stamp}
-  DEPENDS ${lammps_stamp} ${CMAKE_CURRENT_LIST_DIR}/ExtendStyleLists.cmake
-  COMMENT "Lists of styles"
-  VERBATIM)
-add_custom_target(lammps_stock DEPENDS ${lammps_stamp} ${style_stamp})
-
+  OUTPUT ${lammps_fault_library}
+  COMMAND ${build_lammps} -DARCHIVE=${lammps_fault_library} -DAR=${CMAKE_AR} -P ${CMAKE_CURRENT_LIST_DIR}/BuildLammps.cmake
+  DEPENDS ${build_scripts}
+  COMMENT "Stock LAMMPS, as far as a fault needs it"
+  USES_TERMINAL VERBATIM)
 
 # ---- lmp with the package -------------------------------------------------------------------------
-# The LAMMPS sources that include a list of styles are compiled again with the longer lists. They
-# stand among the objects of the program, so the linker takes nothing of the kind from the archive.
-add_library(lammps_with_lsm OBJECT ${lammps_source}/src/force.cpp ${lammps_source}/src/modify.cpp
-                                   ${lammps_source}/src/input.cpp ${lammps_source}/src/lammps.cpp)
-target_include_directories(lammps_with_lsm BEFORE PRIVATE ${style_folder} LSM LSM/scene LSM/speed LSM/support)
-target_include_directories(lammps_with_lsm SYSTEM PRIVATE ${lammps_build}/styles)
-target_link_libraries(lammps_with_lsm PRIVATE lammps_headers lsm_core)
-target_compile_options(lammps_with_lsm PRIVATE -fno-semantic-interposition)
-set_target_properties(lammps_with_lsm PROPERTIES POSITION_INDEPENDENT_CODE ON)
-add_dependencies(lammps_with_lsm lammps_stock)
-
-# LAMMPS with the package as a library, for lmp and for tests; the first part without the lists of styles.
+# The LAMMPS sources that include a list of styles are compiled again with longer lists, which have the package's own, and
+# for lmp_fault with shorter ones. They stand among the objects of the program, so the linker takes nothing of the kind
+# from the archive.
 add_library(lammps_parts INTERFACE)
 target_sources(lammps_parts INTERFACE $<TARGET_OBJECTS:lsm_styles>)
 target_link_libraries(lammps_parts INTERFACE lammps_headers lsm_core ${lammps_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+foreach(fault IN ITEMS "" _fault)
+  set(folder ${style_folder}${fault})
+  string(REPLACE "${style_folder}/" "${folder}/" lists "${style_lists}")
+  set(made_from ${lammps_stamp})
+  if(fault)
+    set(made_from ${lammps_fault_library})
+  endif()
+  add_custom_command(
+    OUTPUT ${folder}/lsm-styles
+    BYPRODUCTS ${lists}
+    COMMAND ${CMAKE_COMMAND} -DFROM=${lammps_build}/styles -DTO=${folder} -DPACKAGE=LSM -DFAULT=${fault} ${style_arguments} -P
+            ${CMAKE_CURRENT_LIST_DIR}/ExtendStyleLists.cmake
+    COMMAND ${CMAKE_COMMAND} -E touch ${folder}/lsm-styles
+    DEPENDS ${made_from} ${build_scripts} ${CMAKE_CURRENT_LIST_DIR}/ExtendStyleLists.cmake
+    COMMENT "Lists of styles"
+    VERBATIM)
+  add_custom_target(lammps_stock${fault} DEPENDS ${made_from} ${folder}/lsm-styles)
+  set(with_lists lammps_with_lsm${fault})
+  add_library(${with_lists} OBJECT EXCLUDE_FROM_ALL ${lammps_source}/src/force.cpp ${lammps_source}/src/modify.cpp
+                                                    ${lammps_source}/src/input.cpp ${lammps_source}/src/lammps.cpp)
+  target_include_directories(${with_lists} BEFORE PRIVATE ${folder} LSM LSM/scene LSM/speed LSM/support)
+  target_include_directories(${with_lists} SYSTEM PRIVATE ${lammps_build}/styles)
+  target_link_libraries(${with_lists} PRIVATE lammps_headers lsm_core)
+  target_compile_options(${with_lists} PRIVATE -fno-semantic-interposition)
+  set_target_properties(${with_lists} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  add_dependencies(${with_lists} lammps_stock${fault})
+endforeach()
 add_library(lammps_program INTERFACE)
 target_sources(lammps_program INTERFACE $<TARGET_OBJECTS:lammps_with_lsm>)
 target_link_libraries(lammps_program INTERFACE lammps_parts)
+add_executable(lmp_fault EXCLUDE_FROM_ALL ${lammps_source}/src/main.cpp $<TARGET_OBJECTS:lsm_styles>
+                                          $<TARGET_OBJECTS:lammps_with_lsm_fault>)
+target_link_libraries(lmp_fault PRIVATE lammps_headers lsm_core ${lammps_fault_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+add_dependencies(lmp_fault lammps_stock_fault)
+if(LSM_BUILD_TESTS AND CMAKE_GENERATOR MATCHES "Ninja")
+  set_target_properties(lmp_fault PROPERTIES EXCLUDE_FROM_ALL OFF)
+endif()
 
 # ---- liblammps.so with the package, and LAMMPS' Python module beside it ----------------------------
 # All of the archive but what is compiled again: programs may call what lmp itself does not need.

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from data_files import header, read_catalogue, read_dump, read_series, rows, same_bytes
-from programs import INPUTS, refused, run, scene
+from programs import INPUTS, Program, refused, run, scene
 
 sys.path.insert(0, str(INPUTS / "studies"))
 from stretches import parts_of  # noqa: E402
@@ -41,6 +41,18 @@ def test_fault_120(on_ranks, postproc):
     if shutil.which("gnuplot"):
         run(postproc, "series short.pe.bin -o picture")
         assert os.path.getsize("picture.png") > 0 and os.path.getsize("picture.svg") > 0
+
+
+def test_the_first_command_has_enough_of_lammps(lmp, work):
+    """lmp_fault, for which half of LAMMPS is compiled, gives the bytes of lmp, and says what it lacks."""
+    small = Program.built("lmp_fault", "-log", "none", env=lmp.env, errors=lmp.errors)
+    for name, program in ("whole", lmp), ("small", small):
+        (work / name).mkdir()
+        run(program, scene(length=24, settle=400, steps=3000, velocity=0.005, ruptures="yes"), cwd=work / name)
+    for path in sorted((work / "whole").iterdir()):
+        same_bytes(path, work / "small" / path.name)
+    Path("langevin.in").write_text("region box block 0 1 0 1 0 1\ncreate_box 1 box\nfix 1 all langevin 1 1 1 1\n")
+    refused(small, "-in langevin.in", "Unrecognized fix style 'langevin'")
 
 
 def test_lists_that_are_added_to_do_not_change_the_motion(lmp, work):
