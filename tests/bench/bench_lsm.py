@@ -9,6 +9,7 @@ in rounds; tables hold medians over the rounds, and medians of the ratios within
 import argparse
 import csv
 import datetime
+import itertools
 import math
 import os
 import re
@@ -94,8 +95,9 @@ def shares_of_cpu():
 
 class Bench:
 
-    def __init__(self, lmp, stock, folder, quick, rounds, seconds, length, runs):
+    def __init__(self, lmp, stock, folder, quick, rounds, seconds, length, runs, native):
         self.lmp, self.stock, self.runs, self.quick = lmp.resolve(), stock.resolve(), runs and runs.resolve(), quick
+        self.native = [path.resolve() for path in native or ()]
         self.rounds, self.seconds = rounds or (2 if quick else 7), seconds or (0.3 if quick else 1)
         self.few = min(self.rounds, max(2, (self.rounds + 1) // 2))
         self.length, self.cause_length = length or 1890, length or 480
@@ -124,8 +126,8 @@ class Bench:
         done = run(program, [str(word) for word in words], timeout=HOURS, **more)
         return done.out + done.err
 
-    def lammps(self, ranks, program, scene, given, log, **more):
-        text = self.mpi(ranks, program, "-in", scene, *variables(given), "-log", log, "-screen", "none", **more)
+    def lammps(self, ranks, program, scene, given, log, *words, **more):
+        text = self.mpi(ranks, program, "-in", scene, *variables(given), "-log", log, "-screen", "none", *words, **more)
         return text + Path(more.get("cwd", "."), log).read_text()
 
     def note(self, table, label, length, ranks, number, text):
@@ -153,9 +155,9 @@ class Bench:
         self.lammps(self.most, self.lmp, HERE / "make.in", dict(length=length, name=name, contacts=contacts), "make.log", measured=False)
         convert(name)
 
-    def ours(self, table, label, length, ranks, number, name="", **given):
+    def ours(self, table, label, length, ranks, number, name="", lmp=None, **given):
         given = dict(name=f"fault_{length}{name}", steps=self.steps(length, 60 * ranks)) | given
-        self.note(table, label, length, ranks, number, self.lammps(ranks, self.lmp, HERE / "ours.in", given, "ours.log"))
+        self.note(table, label, length, ranks, number, self.lammps(ranks, lmp or self.lmp, HERE / "ours.in", given, "ours.log"))
 
     def slice(self, table, label, folder, ranks, number):
         """A part of the run of fault.in in a folder, from its newest restart file, with everything that it records."""
@@ -184,13 +186,19 @@ class Bench:
         if not esys:
             print("ESyS-Particle is not installed and left out (Debian package esys-particle)", file=sys.stderr)
         name = f"fault_{self.length}"
+        kinds = [("", self.lmp, self.stock, ("",))]
+        if self.native:
+            kinds.append((", -march=native", *self.native, ("", "/omp")))
         for number in self.in_rounds("peers", self.rounds):
-            for ranks in self.ranks:
-                self.ours("peers", "ours", self.length, ranks, number)
+            for (flags, lmp, stock, suffixes), ranks in itertools.product(kinds, self.ranks):
+                self.ours("peers", "ours" + flags, self.length, ranks, number, lmp=lmp)
                 for label, links, rate in (("harmonic", "harmonic", 25), ("bpm/spring", "bpm", 15), ("harmonic with contacts", "contacts", 20)):
                     given = dict(name=name, steps=self.steps(self.length, rate * ranks), links=links)
-                    text = self.lammps(ranks, self.stock, HERE / "stock.in", given, "stock.log")
-                    self.note("peers", f"bond {label}", self.length, ranks, number, text)
+                    for suffix in suffixes if links == "harmonic" else suffixes[:1]:
+                        words = ["-sf", "omp", "-pk", "omp", "1"] if suffix else []
+                        text = self.lammps(ranks, stock, HERE / "stock.in", given, "stock.log", *words)
+                        self.note("peers", f"bond {label}{suffix}{flags}", self.length, ranks, number, text)
+            for ranks in self.ranks:
                 # In addition to its workers ESyS-Particle has a process that directs them and never sleeps.
                 if esys and number <= self.few and ranks < self.cores:
                     for path in Path(".").glob(f"{name}.esys.*"):
@@ -380,6 +388,8 @@ if __name__ == "__main__":
         "--runs", metavar="RUNS", type=Path,
         help="folder of a study with runs fault_LENGTH_1, done or under way (inputs/study.sh campaign); causes and campaign begin "
         "with the newest restart file of each, and are left out without it")
+    parser.add_argument("--native", metavar=("LMP", "STOCK"), nargs=2, type=Path,
+                        help="the same two programs, compiled with -march=native, the second with package OPENMP: further peers")
     try:
         main(**vars(parser.parse_args()))
     except (AssertionError, OSError, ValueError) as error:
