@@ -172,6 +172,7 @@ def first(work):
                                                                                       wait.format(work / "postproc") + "; echo figure >first.$1")):
         (folder / name).write_text(f"#!/bin/bash\n{script}\n")
         (folder / name).chmod(0o755)
+    shutil.copy(folder / "lmp", folder / "lmp_fault")
     return Program("first-catalogue.sh", SOURCE / "inputs/first-catalogue.sh", 100,
                    env={"PATH": f"{folder}:{os.environ['PATH']}", "LSM_BIN": str(folder), "LSM_OUTPUT": str(work / "out")})
 
