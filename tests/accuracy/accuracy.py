@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The accuracy report: tables, work-precision diagrams and a text, all from runs made here.
 
-accuracy.py full|quick FOLDER SLIDER_PROGRAM FAULT_PROGRAM PHYSICS_TESTS LMP INPUTS MPIEXEC...
+accuracy.py full|quick FOLDER SLIDER_PROGRAM FRICTION_PROGRAM POSTPROC PHYSICS_TESTS LMP INPUTS MPIEXEC...
 
 full takes some 20 minutes on 2 cores, quick about 3. The report is FOLDER/report.md. LSM_ACCURACY_PARTS="long runs,sums" runs only
 those parts (slider, single events, friction, waves, long runs, leaps, sums, ruptures, extremes, or text: none) and keeps what is in
@@ -20,6 +20,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 SCENES = Path(__file__).resolve().parent
 sys.path.insert(0, str(SCENES.parent))
+import fault_accuracy  # noqa: E402
 from programs import Program, run  # noqa: E402
 
 PARTS = ("slider", "single events", "friction", "waves", "long runs", "leaps", "sums", "ruptures", "extremes")
@@ -238,7 +239,7 @@ def report(mode, seconds):
 # ---- runs
 
 
-def measure(mode, out, slider, fault, tests, lmp, inputs, mpiexec, parts):
+def measure(mode, out, slider, friction, postproc, tests, lmp, inputs, mpiexec, parts):
 
     def done(name, *words, **more):
         print(f"== {name}", flush=True)
@@ -249,9 +250,10 @@ def measure(mode, out, slider, fault, tests, lmp, inputs, mpiexec, parts):
 
     if "slider" in parts:
         shown("block-slider", slider, out, mode)
-    shown("lattice solid fault", fault, out, mode, lmp, inputs, SCENES, *mpiexec)
+    print("== lattice solid fault", flush=True)
+    fault_accuracy.measure(mode, parts, out, lmp, inputs, friction, postproc, mpiexec)
     if "waves" in parts:
-        shown("waves", fault.with_name("lsm_accuracy_waves"), out, mode, lmp, SCENES)
+        shown("waves", friction.with_name("lsm_accuracy_waves"), out, mode, lmp, SCENES)
     if "ruptures" in parts:
         work = out / "work/ruptures"
         work.mkdir(parents=True, exist_ok=True)
@@ -272,7 +274,7 @@ def measure(mode, out, slider, fault, tests, lmp, inputs, mpiexec, parts):
             shutil.copy(study / name, out / f"fault_catalogues.{copied}")
 
 
-def main(mode, out, slider, fault, tests, lmp, inputs, *mpiexec):
+def main(mode, out, slider, friction, postproc, tests, lmp, inputs, *mpiexec):
     if not shutil.which("gnuplot"):
         sys.exit("accuracy: gnuplot not found (Debian package gnuplot-nox)")
     given = os.environ.get("LSM_ACCURACY_PARTS")
@@ -284,7 +286,7 @@ def main(mode, out, slider, fault, tests, lmp, inputs, *mpiexec):
     if not given:
         shutil.rmtree(out, ignore_errors=True)
     (out / "work").mkdir(parents=True, exist_ok=True)
-    measure(mode, out, *(Path(path).resolve() for path in (slider, fault, tests, lmp, inputs)), mpiexec, parts)
+    measure(mode, out, *(Path(path).resolve() for path in (slider, friction, postproc, tests, lmp, inputs)), mpiexec, parts)
     os.chdir(out)
     diagrams()
     seconds = int(time.monotonic() - began)
@@ -295,9 +297,9 @@ def main(mode, out, slider, fault, tests, lmp, inputs, *mpiexec):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 9 or sys.argv[1] not in ("full", "quick"):
+    if len(sys.argv) < 10 or sys.argv[1] not in ("full", "quick"):
         sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
-    except (AssertionError, OSError, subprocess.SubprocessError) as error:
+    except (AssertionError, OSError, subprocess.SubprocessError, fault_accuracy.Failed) as error:
         sys.exit(f"accuracy: {error}")
