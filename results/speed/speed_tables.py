@@ -37,35 +37,41 @@ def ratio_of(rounds, base):
 def speed_peers_table():
     found, out = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}, []
     for label in dict.fromkeys(label for label, _ in found):
-        row = [label]
+        name, _, native = label.partition(", ")
+        row = [name, "-O2, of Debian" if name == "ESyS-Particle" else "-O3 " + native if native else "-O3"]
         for ranks in (1, 2):
             at, ours = found.get((label, ranks)), found["ours", ranks]
             row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
             last = at or last
         out.append(row + [f"{middle(last, 'bytes'):.0f}"])
     return ([
-        "PE at every step, length 1890", "million particle-steps/s, 1 rank", "ours is faster", "2 ranks", "ours is faster",
+        "PE at every step, length 1890", "flags", "million particle-steps/s, 1 rank", "ours (-O3) is faster", "2 ranks", "ours is faster",
         "bytes for a particle, most ranks"
     ], out)
 
 
 def speed_lengths_table():
-    found = {key[1:]: rounds for key, rounds in timings("lengths").items()}
-    return (["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication", "lists"], [[
-        str(length), f"{middle(found[length, 2], 'atoms'):.0f}", *(f"{middle(found[length, ranks]):.1f}"
-                                                                   for ranks in (1, 2)), *(f"{middle(found[length, 2], key):.2f}"
-                                                                                           for key in ("bond", "pair", "modify", "comm", "neigh"))
-    ] for length in sorted({one
-                            for one, _ in found})])
+    out = []
+    for table, lengths in ("lengths", (120, 945, 1890, 3780)), ("paper", (480,)):
+        found = timings(table)
+        for label, length in dict.fromkeys(key[:2] for key in found):
+            one, two = found.get((label, length, 1)), found.get((label, length, 2))
+            if length in lengths and one and two:
+                out.append([
+                    f"{length}" if table == "lengths" else f"{length}, {label}", f"{middle(two, 'atoms'):.0f}", f"{middle(one):.1f}",
+                    f"{middle(two):.1f}", *(f"{middle(two, key):.2f}" for key in ("bond", "pair", "modify", "comm", "neigh"))
+                ])
+    return ["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication", "lists"], out
 
 
 def speed_changes_table():
     names = {key[0]: rounds for key, rounds in timings("features").items()}
     ratio = {label: f"{ratio_of(rounds, names['base of ' + label]):.2f}" for label, rounds in names.items() if "base of " + label in names}
-    changes = [["contacts of all discs"], ["nothing recorded", "location of events", "energy ledger"],
-               ["static friction above dynamic", "slip weakening", "velocity weakening"],
-               ["rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)"],
-               ["links that can break", "no viscosity", "dashpots of links and contacts"],
+    changes = [["contacts of all discs", "nothing recorded", "location of events", "energy ledger"],
+               [
+                   "static friction above dynamic", "slip weakening", "velocity weakening", "rate and state (ageing)", "rate and state (slip)",
+                   "no friction (lsm/free)"
+               ], ["links that can break", "no viscosity", "dashpots of links and contacts"],
                ["pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps"]]
     return (["one thing changed, length 1890, 2 ranks",
              "time of a step, ratio"], [["; ".join(change), "; ".join(ratio[label] for label in change)] for change in changes])
