@@ -17,6 +17,7 @@
 
 #include "files/text.h"
 #include "friction/force_laws.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 #include "lsm_version.h"
@@ -117,6 +118,7 @@ void BondLSMLinked::collect()
   segments.clear();
   for (const auto &[kind, of_kind] : kinds) {
     const auto &[links, low] = of_kind;
+    const auto [first_only, type] = kind;
     std::vector<int> order = sorted_by(low);
     for (auto begin = order.begin(); begin != order.end();) {
       const auto end = std::find_if(begin, order.end(),
@@ -127,8 +129,8 @@ void BondLSMLinked::collect()
     std::vector<LSMLinkRows::Link> sorted;
     sorted.reserve(order.size());
     for (int n : order)
-      sorted.push_back({links[n].i, links[n].j, radius[links[n].i] + radius[links[n].j]});
-    const auto [first_only, type] = kind;
+      sorted.push_back(
+          {links[n].i, links[n].j, factor[type] * (radius[links[n].i] + radius[links[n].j])});
     segments.push_back(
         {type, first_only,
          LSMLinkRows::make_rows(owned, sorted, nlocal, nlocal + atom->nghost, first_only)});
@@ -237,14 +239,11 @@ double BondLSMLinked::max_strain() const
   return worst;
 }
 
-std::vector<BondLSMLinked::CurrentLink> BondLSMLinked::current_links() const
+void BondLSMLinked::for_each_current(const std::function<void(const CurrentLink &)> &act) const
 {
-  std::vector<CurrentLink> all;
-  all.reserve(neighbor->nbondlist);
   for_each_link([&](const Segment &s, int i, int j, double) {
-    all.push_back({i, j, k[s.type], k[s.type] * delay[s.type]});
+    act({i, j, k[s.type], k[s.type] * delay[s.type]});
   });
-  return all;
 }
 
 static bool any_above_0(const std::vector<double> &of_types)
@@ -268,6 +267,7 @@ void BondLSMLinked::allocate()
   memory->create(setflag, n, "bond:setflag");
   std::fill_n(setflag, n, 0);
   for (auto *of_types : {&k, &ratio, &delay}) of_types->assign(n, 0.0);
+  factor.assign(n, 1.0);
 }
 
 void BondLSMLinked::settings(int narg, char ** /*arg*/)
@@ -278,25 +278,34 @@ void BondLSMLinked::settings(int narg, char ** /*arg*/)
 
 void BondLSMLinked::coeff(int narg, char **arg)
 {
-  const double delay_one = LSMScene::take_retardation(lmp, "Bond lsm/linked", narg, arg);
-  if (narg != 2 && narg != 3)
-    error->all(FLERR, "Bond style lsm/linked expects 'bond_coeff N k [ratio] [kelvin-voigt TIME]' "
-                      "with the breaking distance ratio = r_cut/r0 > 1, or no ratio for links that "
-                      "never break");
+  int words = 1;
+  while (words < narg && utils::is_double(arg[words])) words++;
+  double delay_one = 0.0, rest_one = 1.0;
+  LSMKeywordReader in(lmp, "Bond lsm/linked", words, narg, arg);
+  in.read_all({{"kelvin-voigt", &delay_one, LSM::Must::not_negative},
+               {"rest", &rest_one, LSM::Must::positive}});
+  if (in.has("rest") && domain->dimension != 3)
+    error->all(FLERR, "Bond lsm/linked rest needs a 3-dimensional simulation (dimension 3)");
+  if (words != 2 && words != 3)
+    error->all(FLERR,
+               "Bond style lsm/linked expects 'bond_coeff N k [ratio] [rest FACTOR] [kelvin-voigt "
+               "TIME]' with the breaking distance ratio = r_cut/r0 > 1, or no ratio for links that "
+               "never break");
   if (!allocated) allocate();
 
   int ilo, ihi;
   utils::bounds(FLERR, arg[0], 1, atom->nbondtypes, ilo, ihi, error);
   const double k_one = utils::numeric(FLERR, arg[1], false, lmp);
-  const double ratio_one = narg == 3 ? utils::numeric(FLERR, arg[2], false, lmp) : 0.0;
+  const double ratio_one = words == 3 ? utils::numeric(FLERR, arg[2], false, lmp) : 0.0;
   if (k_one <= 0.0) error->all(FLERR, "Bond lsm/linked stiffness is {}, but must be > 0", k_one);
-  if (narg == 3 && ratio_one <= 1.0)
+  if (words == 3 && ratio_one <= 1.0)
     error->all(FLERR, "Bond lsm/linked breaking ratio r_cut/r0 is {}, but must be > 1", ratio_one);
 
   for (int i = ilo; i <= ihi; i++) {
     k[i] = k_one;
     ratio[i] = ratio_one;
     delay[i] = delay_one;
+    factor[i] = rest_one;
     setflag[i] = 1;
   }
 }
@@ -332,6 +341,7 @@ void BondLSMLinked::coefficients_in(LSMRestartFile file)
 {
   file.version();
   for (auto *of_types : {&k, &ratio, &delay}) file.fixed(*of_types);
+  if (domain->dimension == 3) file.fixed(factor);
 }
 
 void BondLSMLinked::write_restart(FILE *fp)
@@ -351,6 +361,7 @@ void BondLSMLinked::write_data(FILE *fp)
   for (int i = 1; i <= atom->nbondtypes; i++) {
     fprintf(fp, "%d %.17g", i, k[i]);
     if (ratio[i] > 0.0) fprintf(fp, " %.17g", ratio[i]);
+    if (factor[i] != 1.0) fprintf(fp, " rest %.17g", factor[i]);
     if (delay[i] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i]);
     fputs("\n", fp);
   }
@@ -359,7 +370,7 @@ void BondLSMLinked::write_data(FILE *fp)
 double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
 {
   const double r = sqrt(rsq);
-  const double stretch = r - (atom->radius[i] + atom->radius[j]);
+  const double stretch = r - factor[type] * (atom->radius[i] + atom->radius[j]);
   double pull = LSM::Spring::force(k[type], stretch);
   if (velocity && delay[type] > 0.0 && r > 0.0)
     pull += LSM::Dashpot::force(k[type] * delay[type],

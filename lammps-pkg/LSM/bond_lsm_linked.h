@@ -14,6 +14,7 @@ BondStyle(lsm/linked,BondLSMLinked);
 #include "lsm_energy.h"
 #include "lsm_link_kernel.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,8 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
-  // the rest length is r_i + r_j, but LAMMPS asks for a single number per type
-  double equilibrium_distance(int) override { return 2.0 * maxrad; }
+  // the rest length is a factor times r_i + r_j, but LAMMPS asks for a single number per type
+  double equilibrium_distance(int type) override { return 2.0 * maxrad * factor[type]; }
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void write_data(FILE *) override;
@@ -42,8 +43,9 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
     int i, j;    ///< local indices
     double stiffness, viscosity;
   };
-  /// Links of the last force evaluation; under bond_style hybrid only those of this style.
-  std::vector<CurrentLink> current_links() const;
+  /// Passes on the links of the last force evaluation; under bond_style hybrid only those of this
+  /// style.
+  void for_each_current(const std::function<void(const CurrentLink &)> &) const;
   /// Largest strain |r - r0| / r0 of these links.
   double max_strain() const;
   /// Retardation times of the types, empty if all are 0.
@@ -54,6 +56,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
 
   std::vector<double> k;        // link stiffness
   std::vector<double> ratio;    // breaking distance over rest length; 0 if the link cannot break
+  std::vector<double> factor;   // rest length over the sum of the radii
   std::vector<double> delay;    // retardation time: viscosity over stiffness; 0 if there is none
   double maxrad = 0.0;
   const bool avx2;    // the processor has AVX2

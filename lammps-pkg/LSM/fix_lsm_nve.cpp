@@ -379,10 +379,9 @@ void FixLSMNVE::post_run()
 // at -1. Bounds of both bound it.
 double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
 {
-  const auto springs = LSMScene::springs(lmp, reach_factor);
-  const double w2 = largest_eigenvalue(springs, false);
+  const double w2 = largest_eigenvalue(reach_factor, false);
   frequency = sqrt(w2);
-  const double g = ahead ? largest_eigenvalue(springs, true) : 0.0;
+  const double g = ahead ? largest_eigenvalue(reach_factor, true) : 0.0;
   return w2 > 0.0 ? 2.0 / (sqrt(g * g + w2) + g) : 0.0;
 }
 
@@ -390,21 +389,20 @@ double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
 // each spring (u_i - u_j)^2 <= (1 + c) u_i^2 + (1 + 1/c) u_j^2 for any c > 0, after which each
 // particle stands alone. With c = 1 this is the bound by which create_lsm_fault massstep raises
 // masses (fault/packing.h); with c^2 = m_i / m_j it is closer where masses are not raised.
-double FixLSMNVE::largest_eigenvalue(const std::vector<LSMScene::Spring> &springs, bool viscous)
+double FixLSMNVE::largest_eigenvalue(double reach_factor, bool viscous)
 {
-  return std::min(largest_eigenvalue(springs, viscous, 0.0),
-                  largest_eigenvalue(springs, viscous, 0.5));
+  return std::min(largest_eigenvalue(reach_factor, viscous, 0.0),
+                  largest_eigenvalue(reach_factor, viscous, 0.5));
 }
 
 // c is this power of m_i / m_j
-double FixLSMNVE::largest_eigenvalue(const std::vector<LSMScene::Spring> &springs, bool viscous,
-                                     double power)
+double FixLSMNVE::largest_eigenvalue(double reach_factor, bool viscous, double power)
 {
   const auto mass = [this](int i) {
     return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
   };
   alone.assign(comm_reverse * (atom->nlocal + atom->nghost), 0.0);
-  for (const LSMScene::Spring &s : springs) {
+  LSMScene::for_each_spring(lmp, reach_factor, [&](const LSMScene::Spring &s) {
     const double along = viscous ? s.viscosity : s.k, across = viscous ? 0.0 : s.kt;
     const auto add = [&](int i, int j) {
       const double share = (1.0 + pow(mass(i) / mass(j), power)) / mass(i);
@@ -417,7 +415,7 @@ double FixLSMNVE::largest_eigenvalue(const std::vector<LSMScene::Spring> &spring
     };
     add(s.i, s.j);
     if (s.both) add(s.j, s.i);
-  }
+  });
   if (force->newton) comm->reverse_comm(this);
   double most = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {

@@ -100,8 +100,8 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void leave_clearing_to_integrator();
   void clear_all();
   double time_step_limit(double reach_factor, double &frequency);
-  double largest_eigenvalue(const std::vector<LSMScene::Spring> &, bool viscous);
-  double largest_eigenvalue(const std::vector<LSMScene::Spring> &, bool viscous, double power);
+  double largest_eigenvalue(double reach_factor, bool viscous);
+  double largest_eigenvalue(double reach_factor, bool viscous, double power);
 };
 
 }    // namespace LAMMPS_NS

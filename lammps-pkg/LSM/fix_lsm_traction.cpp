@@ -33,10 +33,16 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
 
   if (narg < 7)
     error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
-                      "NORMAL SHEAR [share diameter|spacing]', tractions as numbers or variables "
-                      "v_name");
-  LSMKeywordReader(lmp, "Fix lsm/traction", 7, narg, arg)
-      .read_all({{"share", LSM::Words{&spaced, {"diameter", "spacing"}}}});
+                      "NORMAL SHEAR [share diameter|spacing] [per/mass A] [dip SHEAR]', tractions "
+                      "as numbers or variables v_name");
+  LSMKeywordReader in(lmp, "Fix lsm/traction", 7, narg, arg);
+  in.read_all({{"share", LSM::Words{&spaced, {"diameter", "spacing"}}},
+               {"per/mass", &per_mass, LSM::Must::positive},
+               {"dip", &traction[DIP]}});
+  for (const char *word : {"share", "dip"})
+    if (in.has(word) && (domain->dimension == 3) != (word[0] == 'd'))
+      error->all(FLERR, "Fix lsm/traction {} needs dimension {}, found dimension {}", word,
+                 word[0] == 'd' ? 3 : 2, domain->dimension);
   if (modify->get_fix_by_style("^lsm/traction").size() > 0)
     error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
   for (int s : {LOWER, UPPER}) {
@@ -59,13 +65,13 @@ FixLSMTraction::~FixLSMTraction()
 void FixLSMTraction::post_constructor()
 {
   modify->add_fix(std::string(id) +
-                  "_store all property/atom d_lsm_contact_radius d_lsm_normal d_lsm_shear ghost "
-                  "yes writedata no");
+                  "_store all property/atom d_lsm_contact_radius d_lsm_normal d_lsm_shear " +
+                  (domain->dimension == 3 ? "d_lsm_dip " : "") + "ghost yes writedata no");
 }
 
 void FixLSMTraction::init()
 {
-  LSMScene::require_plane(lmp, "Fix lsm/traction");
+  LSMScene::require_verlet(lmp, "Fix lsm/traction");
   if (!dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1)))
     error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
 }
@@ -83,6 +89,8 @@ void FixLSMTraction::find_store()
   contact_radius = const_cast<double *>(contact_radii());
   load[NORMAL] = atom->dvector[atom->find_custom("lsm_normal", flag, columns)];
   load[SHEAR] = atom->dvector[atom->find_custom("lsm_shear", flag, columns)];
+  load[DIP] = domain->dimension == 3 ? atom->dvector[atom->find_custom("lsm_dip", flag, columns)]
+                                     : nullptr;
 }
 
 // evaluates a traction at each particle of this rank
@@ -106,27 +114,38 @@ std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
   return all;
 }
 
+// others: particles of the other side, in the order of x
 int FixLSMTraction::partner(int i, const std::vector<int> &others) const
 {
+  double **x = atom->x;
   int found = -1;
-  for (const int j : others) {
-    const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
+  const double widest = ASIDE * (atom->radius[i] + widest_radius);
+  const auto first =
+      std::lower_bound(others.begin(), others.end(), x[i][0] - widest,
+                       [x](int j, double least) { return x[j][0] < least; });
+  for (auto at = first; at != others.end() && x[*at][0] <= x[i][0] + widest; ++at) {
+    const int j = *at;
+    const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1];
+    const double dz = domain->dimension == 3 ? x[i][2] - x[j][2] : 0.0;
     const double reach = FACING * (atom->radius[i] + atom->radius[j]);
-    if (dx * dx + dy * dy > reach * reach || fabs(dx) > ASIDE / FACING * reach) continue;
+    if (dx * dx + dy * dy + dz * dz > reach * reach || fabs(dx) > ASIDE / FACING * reach ||
+        fabs(dz) > ASIDE / FACING * reach)
+      continue;
     if (found >= 0)
       error->one(
           FLERR,
           "Fix lsm/traction: particle {} faces particles {} and {}, but must face one, as in "
           "create_lsm_fault lattice or with mirror yes",
           atom->tag[i], atom->tag[found], atom->tag[j]);
-    found = j;
+  found = j;
   }
   if (found < 0)
     error->one(FLERR, "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
   return found;
 }
 
-// Length of the fault that each particle of this rank on one side represents: its diameter, or half
+// Length of the fault, in three dimensions its area, that each particle of this rank on one side
+// represents: given for its mass, its diameter or the square of it, or in two dimensions half
 // the distance to the next particles of that side on the left and on the right. At the ends of a
 // fault that is not periodic, its radius replaces the missing half.
 std::vector<double> FixLSMTraction::shares(int s) const
@@ -135,7 +154,9 @@ std::vector<double> FixLSMTraction::shares(int s) const
   std::vector<double> share(atom->nlocal, 0.0), mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
-    share[i] = 2.0 * radius[i];
+    share[i] = per_mass > 0.0         ? per_mass * atom->rmass[i]
+        : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
+                                 : 2.0 * radius[i];
     mine.push_back(atom->x[i][0]);
   }
   if (!spaced) return share;
@@ -169,6 +190,7 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   auto *const pair = dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1));
   find_store();
   const std::vector<double> normal = evaluate(traction[NORMAL]), shear = evaluate(traction[SHEAR]);
+  const std::vector<double> dip = evaluate(traction[DIP]);
   const int *const mask = atom->mask;
   const double *const radius = atom->radius;
   const std::vector<double> share[2] = {shares(LOWER), shares(UPPER)};
@@ -176,10 +198,17 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
     for (int s : {LOWER, UPPER})
       if (mask[i] & side[s]) face[s].push_back(i);
+  widest_radius = 0.0;
+  for (auto &of_side : face) {
+    for (const int i : of_side) widest_radius = MAX(widest_radius, radius[i]);
+    std::stable_sort(of_side.begin(), of_side.end(),
+                     [this](int i, int j) { return atom->x[i][0] < atom->x[j][0]; });
+  }
 
   for (int i = 0; i < atom->nlocal; i++) {
     contact_radius[i] = radius[i];
     load[NORMAL][i] = load[SHEAR][i] = 0.0;
+    if (load[DIP]) load[DIP][i] = 0.0;
     for (int s : {LOWER, UPPER}) {
       if (!(mask[i] & side[s])) continue;
       const int j = partner(i, face[1 - s]);
@@ -194,16 +223,19 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
                    "Fix lsm/traction: with share spacing particles {} and {}, which face each "
                    "other, must be at the same x",
                    atom->tag[i], atom->tag[j]);
-      if (!(normal[i] >= 0.0) || !std::isfinite(normal[i]) || !std::isfinite(shear[i]))
+      if (!(normal[i] >= 0.0) || !std::isfinite(normal[i]) || !std::isfinite(shear[i]) ||
+          !std::isfinite(dip[i]))
         error->one(FLERR,
                    "Fix lsm/traction: normal and shear traction of particle {} are {} and {}, "
                    "but must be >= 0 and finite",
-                   atom->tag[i], normal[i], shear[i]);
+                   atom->tag[i], normal[i], std::isfinite(dip[i]) ? shear[i] : dip[i]);
       load[NORMAL][i] = share[s][i] * normal[i];
       load[SHEAR][i] = share[s][i] * shear[i];
+      if (load[DIP]) load[DIP][i] = share[s][i] * dip[i];
       const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
+      const double dz = load[DIP] ? atom->x[i][2] - atom->x[j][2] : 0.0;
       const double more =
-          0.5 * (sqrt(dx * dx + dy * dy) + load[NORMAL][i] / k - radius[i] - radius[j]);
+          0.5 * (sqrt(dx * dx + dy * dy + dz * dz) + load[NORMAL][i] / k - radius[i] - radius[j]);
       if (fabs(more) > 0.05 * radius[i])
         error->one(
             FLERR,
@@ -217,11 +249,11 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   std::vector<double *> of_each(atom->nlocal + atom->nghost);
   for (size_t i = 0; i < of_each.size(); i++) of_each[i] = &contact_radius[i];
   comm->forward_comm_array(1, of_each.data());
-  pair->load_contacts(load[SHEAR]);
+  pair->load_contacts(load[SHEAR], load[DIP]);
   begun = true;
 }
 
-// The forces that balance the tractions: the upper face is pulled along x, and each is pressed on
+// The forces that balance the tractions: the upper face is pulled along x and z, and each is pressed on
 // the other. Within a run velocities are those of the middle of the step; times the time step they
 // give the displacement.
 void FixLSMTraction::post_force(int /*vflag*/)
@@ -238,6 +270,10 @@ void FixLSMTraction::post_force(int /*vflag*/)
       f[i][0] += fx;
       f[i][1] += fy;
       work += fx * v[i][0] + fy * v[i][1];
+      if (!load[DIP]) continue;
+      const double fz = up * load[DIP][i];
+      f[i][2] += fz;
+      work += fz * v[i][2];
     }
   if (!update->setupflag) work_outside += update->dt * work;
 }

@@ -39,12 +39,14 @@ class FixLSMTraction :
   }
 
  private:
-  enum { NORMAL, SHEAR };
+  enum { NORMAL, SHEAR, DIP };
   int side[2];                         // group bits of the lower and the upper face
-  std::string traction[2];             // normal and shear: number or v_name
+  std::string traction[3] = {"", "", "0"};    // normal, shear, shear along z: number or v_name
   int spaced = 0;                      // 1: particles are loaded by their spacing, not diameter
+  double per_mass = 0.0;               // length or area that they represent, over mass; 0: not so
+  double widest_radius = 0.0;          // of the faces, while contacts are loaded
   bool begun = false;                  // the contacts have been loaded
-  double *contact_radius, *load[2];    // of each particle; load: force of the other face
+  double *contact_radius, *load[3];    // of each particle; load: force of the other face
 
   void find_store();
   std::vector<double> evaluate(const std::string &) const;

@@ -11,6 +11,7 @@
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -40,7 +41,13 @@ double PairLSMFriction::near_reach() const
 
 int PairLSMFriction::size_history() const
 {
-  return LAW_STATE + table.law->state_size;
+  return law_state() + table.law->state_size;
+}
+
+// where the state of the law begins in the history of a contact
+int PairLSMFriction::law_state() const
+{
+  return domain->dimension == 3 ? Kept<3>::LAW_STATE : Kept<2>::LAW_STATE;
 }
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) : PairLSMFree(_lmp), table(_lmp), running(table.law)
@@ -52,7 +59,7 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) : PairLSMFree(_lmp), table(_lmp),
   // a contact lost in the step in which the list is built keeps its history until its release is
   // counted
   beyond_contact = 1;
-  single_extra = 2;
+  single_extra = domain->dimension == 3 ? 5 : 2;
   svector = of_single;
 
   // a second one would take the contact history of the first
@@ -85,18 +92,18 @@ double PairLSMFriction::drag(const LSMContacts::Pair &pair, double r, double spr
   return more;
 }
 
-void PairLSMFriction::tally(const LSMContacts::Pair &pair, double energy, double fx, double fy,
-                            double delx, double dely)
+void PairLSMFriction::tally(const LSMContacts::Pair &pair, double energy, const Vector &force,
+                            const Vector &del)
 {
-  ev_tally_xyz(pair.i, pair.j, atom->nlocal, newton_pair, energy, 0.0, fx, fy, 0.0, delx, dely,
-               0.0);
+  ev_tally_xyz(pair.i, pair.j, atom->nlocal, newton_pair, energy, 0.0, force[0], force[1], force[2],
+               del[0], del[1], del[2]);
 }
 
 // By how much positions in a box are rounded when particles cross its border.
 static double rounding(const Domain *domain)
 {
   double farthest = 0.0;
-  for (int c = 0; c < 2; c++)
+  for (int c = 0; c < domain->dimension; c++)
     farthest = MAX(farthest, MAX(fabs(domain->boxlo[c]), fabs(domain->boxhi[c])));
   return 16.0 * std::numeric_limits<double>::epsilon() * farthest;
 }
@@ -108,7 +115,10 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
   const LSMFriction::Scene scene = {
       near, *this,        *this, atom->x[0], atom->f[0], atom->nlocal,       newton_pair != 0,
       step, near_reach(), k,     &table[0],  screened,   velocity != nullptr};
-  LSMFriction::Loop<Law, Recorder>(scene).run();
+  if (domain->dimension == 3)
+    LSMFriction::Loop<Law, Recorder, 3>(scene).run();
+  else
+    LSMFriction::Loop<Law, Recorder, 2>(scene).run();
   near.states_changed();
   if (screened) near.write_states();    // only here it is known which pairs are left out
 }
@@ -131,28 +141,42 @@ void PairLSMFriction::compute(int eflag, int vflag)
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
 }
 
-void PairLSMFriction::load_contacts(const double *shear)
+void PairLSMFriction::load_contacts(const double *shear, const double *shear_z)
 {
   near.write_states();
   near.forget();
   double **x = atom->x;
   const double *radius = contact_radii();
+  const int dimension = domain->dimension;
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      const double delx = x[i][0] - x[j][0], dely = x[i][1] - x[j][1];
+      double del[3];
+      MathExtra::sub3(x[i], x[j], del);
       const double r0 = radius[i] + radius[j];
       const int itype = atom->type[i], jtype = atom->type[j];
-      if (!active[itype][jtype] || delx * delx + dely * dely >= r0 * r0) continue;
+      if (dimension == 2) del[2] = 0.0;
+      const double rsq = MathExtra::lensq3(del);
+      if (!active[itype][jtype] || rsq >= r0 * r0) continue;
       const std::vector<double> values = table.values(itype, jtype);
       double *const h = &fix_history->firstvalue[i][size_history() * jj];
       fix_history->firstflag[i][jj] = 1;
-      h[XI] = -shear[i] / values[0];
-      h[DX] = delx;
-      h[DY] = dely;
-      h[STATUS] = STICKS;
-      table.law->begin(values.data(), h + LAW_STATE);
+      if (dimension == 3) {
+        const double up = del[1] > 0.0 ? 1.0 : -1.0;
+        h[0] = up * shear[i] / values[0];
+        h[1] = 0.0;
+        h[2] = up * shear_z[i] / values[0];
+        const double along = MathExtra::dot3(h, del) / rsq;
+        for (int c = 0; c < 3; c++) h[c] -= along * del[c];
+        std::copy_n(del, 3, h + Kept<3>::VECTOR);
+        h[Kept<3>::STATUS] = STICKS;
+      } else {
+        h[Kept<2>::XI] = -shear[i] / values[0];
+        std::copy_n(del, 2, h + Kept<2>::VECTOR);
+        h[Kept<2>::STATUS] = STICKS;
+      }
+      table.law->begin(values.data(), h + law_state());
     }
   }
 }
@@ -216,9 +240,6 @@ void PairLSMFriction::parse_law(int narg, char **arg)
 
 void PairLSMFriction::init_style()
 {
-  if (domain->dimension != 2)
-    error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
-
   // forces at displaced positions would slide contacts
   if (!modify->get_fix_by_style("^numdiff").empty())
     error->all(
@@ -258,13 +279,13 @@ void PairLSMFriction::check_periods() const
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
       if (on[i][j]) reach = MAX(reach, maxrad[i] + maxrad[j] + neighbor->skin);
-  for (int c = 0; c < 2; c++)
+  for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && domain->prd[c] < 2.0 * reach)
       error->all(FLERR,
                  "Pair style lsm/friction: the period of the box in {} is {:.6g}, but must be at "
                  "least {:.6g} (twice the largest contact distance with the neighbor skin), as a "
                  "pair would meet itself on both sides",
-                 c ? "y" : "x", domain->prd[c], 2.0 * reach);
+                 std::string("xyz").substr(c, 1), domain->prd[c], 2.0 * reach);
 }
 
 double PairLSMFriction::init_one(int i, int j)
@@ -286,13 +307,13 @@ double PairLSMFriction::init_one(int i, int j)
   return cut;
 }
 
-// the history of a pair as seen from the other particle
+// the history of a pair as seen from the other particle: vectors change their sign
 void PairLSMFriction::transfer_history(double *source, double *target, int, int)
 {
-  target[XI] = source[XI];
-  target[DX] = -source[DX];
-  target[DY] = -source[DY];
-  for (int n = STATUS; n < size_history(); n++) target[n] = source[n];
+  const int from = domain->dimension == 3 ? 0 : Kept<2>::VECTOR;
+  const int to = domain->dimension == 3 ? Kept<3>::STATUS : Kept<2>::STATUS;
+  for (int n = 0; n < size_history(); n++)
+    target[n] = n >= from && n < to ? -source[n] : source[n];
 }
 
 void PairLSMFriction::write_restart_settings(FILE *fp)
@@ -317,21 +338,24 @@ void PairLSMFriction::read_restart_settings(FILE *fp)
 }
 
 // normal force and energy of both springs; svector = elongation of the tangential spring and the
-// tangential force on i along (-ny,nx)
+// tangential force on i along (-ny,nx); in three dimensions length of the elongation, force along
+// it, and components of this force
 double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                                double factor_lj, double &fforce)
 {
   near.write_states();
   double energy = PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
-  svector[0] = svector[1] = 0.0;
+  std::fill_n(svector, single_extra, 0.0);
   if (fforce == 0.0) return energy;
 
   const double kt = table[0][MIN(itype, jtype)][MAX(itype, jtype)];
   const int *jlist = list->firstneigh[i];
   for (int jj = 0; jj < list->numneigh[i]; jj++)
     if ((jlist[jj] & NEIGHMASK) == j) {
-      svector[0] = fix_history->firstvalue[i][size_history() * jj + XI];
+      const double *const h = &fix_history->firstvalue[i][size_history() * jj];
+      svector[0] = single_extra > 2 ? MathExtra::len3(h) : h[Kept<2>::XI];
       svector[1] = -kt * svector[0];
+      for (int n = 2; n < single_extra; n++) svector[n] = -kt * h[n - 2];
       energy += LSM::Spring::energy(kt, svector[0]);
       break;
     }

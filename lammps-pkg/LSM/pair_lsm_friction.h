@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lattice Solid Model: repulsion and friction of unlinked particles,
-// Eqs. (2) and (3), two dimensions; the laws of friction are in core/friction
+// Eqs. (2) and (3); the laws of friction are in core/friction
 
 #ifdef PAIR_CLASS
 // clang-format off
@@ -36,8 +36,9 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   double time_ratio =
       1.0;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
   /// Starts the contacts in the list with a shear force of the upper particle on the lower one,
-  /// given for each particle of this rank. To be called before forces are evaluated in a setup.
-  void load_contacts(const double *shear);
+  /// along x and in three dimensions along z, given for each particle of this rank. To be called
+  /// before forces are evaluated in a setup.
+  void load_contacts(const double *shear, const double *shear_z);
   /// Writes the contacts of the last evaluation into the history. To be called before the history
   /// is read.
   void note_contacts() { near.write_states(); }
@@ -55,15 +56,16 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   const LSMLaw *running;              // first law of the name that fits all coefficients
   bool restored = false;              // law and coefficients come from a restart file
   int locate_onset = 1;               // 1 if the onset of a contact within a step is located
-  double of_single[2] = {};           // target of svector: nothing to free if the constructor stops
+  double of_single[5] = {};           // target of svector: nothing to free if the constructor stops
   class FixDummy *fix_dummy = nullptr;
   class FixLSMHistory *fix_history = nullptr;
 
   bool is_left_out(int place) const override;
   double drag(const LSMContacts::Pair &, double r, double spring, double share) override;
-  void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
-             double dely) override;
+  void tally(const LSMContacts::Pair &, double energy, const LSM::friction_contact::Vector &force,
+             const LSM::friction_contact::Vector &del) override;
   template <class Law, class Recorder> void run_loop();
+  int law_state() const;
   void choose(const LSMLaw *);
   void check_periods() const;
   int size_history() const;

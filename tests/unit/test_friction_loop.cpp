@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The loop over contacts with friction, without LAMMPS: rough rows of discs slide past each other.
+// The loop over contacts with friction, without LAMMPS: rough rows of discs slide past each other,
+// also as a plane of space; single contacts in space.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -15,6 +17,7 @@ using namespace LAMMPS_NS;
 using LSMFriction::Loop;
 using LSMFriction::Scene;
 using LSMFriction::Step;
+using LSM::friction_contact::Vector;
 
 constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 
@@ -22,10 +25,10 @@ constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 struct Host : LSMFriction::Host {
   bool is_left_out(int) const override { return false; }
   double drag(const LSMContacts::Pair &, double, double, double) override { return 0.0; }
-  void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
-             double dely) override {
+  void tally(const LSMContacts::Pair &, double energy, const Vector &force,
+             const Vector &del) override {
     energies += energy;
-    virial += fx * delx + fy * dely;
+    virial += LSM::friction_contact::dot(force, del);
   }
   double energies = 0.0, virial = 0.0;
 };
@@ -34,6 +37,8 @@ struct Host : LSMFriction::Host {
 /// one and up and down, so that contacts begin, slide, stick and end.
 struct Rows {
   static constexpr int each = 60;
+  const int dim;
+  std::array<Vector, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of the rows, in space
   std::vector<double> x, f, radius;
   LSMContacts contacts;
   LSMTypePairs<double> k, coefficients[LSM::CoulombStatic::state_size + 8];
@@ -42,14 +47,14 @@ struct Rows {
   int n = 0;
   double turns = 2.0 * std::acos(-1.0);
 
-  explicit Rows(int state_size) : x(6 * each), f(6 * each) {
+  explicit Rows(int state_size, int dimension = 2) : dim(dimension), x(6 * each), f(6 * each) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(0.8, 1.0);
     for (int i = 0; i < 2 * each; ++i) radius.push_back(any(random));
     k.create(2);
     k[1][1] = stiffness;
     energies.record_what = LSMEnergySource::ENERGY | LSMEnergySource::SLIP_RATE;
-    contacts.begin(state_size);
+    contacts.begin(state_size, dim);
     for (int i = 0; i < each; ++i)
       for (int j = each; j < 2 * each; ++j)
         if (std::abs(i - (j - each)) < 6)
@@ -73,11 +78,15 @@ struct Rows {
   template <class Law, class Recorder = LSMRecordEnergies>
   void evaluate(bool one_by_one = false, bool setup = false) {
     std::fill(f.begin(), f.end(), 0.0);
-    contacts.find(x.data());
+    std::vector<double> in_space(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        in_space[i - i % 3 + static_cast<std::size_t>(c)] += x[i] * axes[i % 3][c];
+    contacts.find(in_space.data());
     const Scene scene = {contacts,
                          host,
                          energies,
-                         x.data(),
+                         in_space.data(),
                          f.data(),
                          2 * each,
                          false,
@@ -87,13 +96,18 @@ struct Rows {
                          coefficients,
                          one_by_one,
                          false};
-    Loop<Law, Recorder>(scene).run();
+    if (dim == 2) return Loop<Law, Recorder, 2>(scene).run();
+    Loop<Law, Recorder, 3>(scene).run();
+    for (std::size_t i = 0; i < f.size(); i += 3) {
+      const Vector force = {f[i], f[i + 1], f[i + 2]};
+      for (std::size_t c = 0; c < 3; ++c) f[i + c] = LSM::friction_contact::dot(force, axes[c]);
+    }
   }
 };
 
-template <class Law>
+template <class Law, int DIM = 2>
 Rows rows_of(const std::vector<double> &values) {
-  Rows rows(LSM::friction_contact::LAW_STATE + Law::state_size);
+  Rows rows(LSM::friction_contact::Kept<DIM>::LAW_STATE + Law::state_size, DIM);
   for (std::size_t p = 0; p < values.size(); ++p) rows.set(static_cast<int>(p), values[p]);
   return rows;
 }
@@ -241,6 +255,199 @@ TEST(FrictionLoop, TalliesWhatItRecords) {
     ASSERT_NEAR(rows.host.virial, virial, 1e-9);
   }
   EXPECT_GT(rows.host.energies, 0.0);
+}
+
+// ---- three dimensions
+
+/// An orthonormal frame at random.
+std::array<Vector, 3> any_frame(std::mt19937_64 &random) {
+  using namespace LSM::friction_contact;
+  std::normal_distribution<double> any;
+  const Vector a = unit({any(random), any(random), any(random)});
+  Vector b = {any(random), any(random), any(random)};
+  const double along = dot(a, b);
+  for (int c = 0; c < 3; ++c) b[c] -= along * a[c];
+  b = unit(b);
+  return {a, b, {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+
+/// Motion in a plane of space, at any angle, gives the digits of two dimensions within rounding.
+template <class Law>
+void embedded(const std::vector<double> &values) {
+  std::mt19937_64 random(3);
+  for (int frame = 0; frame < 3; ++frame) {
+    Rows plane = rows_of<Law>(values), space = rows_of<Law, 3>(values);
+    if (frame) space.axes = any_frame(random);
+    double most = 0.0;
+    for (int n = 0; n < 1500; ++n) {
+      for (Rows *rows : {&plane, &space}) {
+        rows->move_to(n);
+        rows->evaluate<Law>(false, n == 700);
+      }
+      for (std::size_t i = 0; i < plane.f.size(); ++i) {
+        most = std::max(most, std::fabs(plane.f[i]));
+        ASSERT_NEAR(plane.f[i], space.f[i], 1e-11) << Law::name << ", step " << n << ", " << i;
+      }
+      ASSERT_NEAR(plane.energies.pe_tangential, space.energies.pe_tangential, 1e-11);
+    }
+    EXPECT_GT(most, 0.01);
+    EXPECT_NEAR(plane.energies.work_friction, space.energies.work_friction, 1e-9);
+    EXPECT_NEAR(plane.energies.slip_moment, space.energies.slip_moment, 1e-9);
+    EXPECT_GT(space.energies.work_friction, 0.1);
+  }
+}
+
+TEST(FrictionInSpace, APlaneGivesTheDigitsOfTwoDimensions) {
+  embedded<LSM::Coulomb>({kt, mu, mu});
+  embedded<LSM::CoulombStatic>({kt, mu, 0.5});
+  embedded<LSM::SlipWeakening>({kt, mu, 0.5, 0.1, 20.0});
+  embedded<LSM::VelocityWeakening>({kt, mu, 0.5});
+  embedded<LSM::RateStateAgeing>({kt, mu, 0.02, 0.03, 0.1, 0.01, 1.0});
+  embedded<LSM::RateStateSlip>({kt, mu, 0.02, 0.03, 0.1, 0.01, 1.0});
+}
+
+/// One contact in space: a particle beyond another, which is so large that it is a plane across the
+/// third axis of the frame, unless r is small.
+template <class Law>
+struct Contact {
+  using Is = LSM::friction_contact::Kept<3>;
+  typename Law::Coefficients c;
+  double fn, dt = 0.05, r = 1e7, lost = 0.0, slip = 0.0;
+  std::array<Vector, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double h[Is::LAW_STATE + Law::state_size + 1] = {};
+  bool touch = false;
+
+  Contact(const typename Law::Coefficients &of, double normal) : c(of), fn(normal) {}
+  /// Moves to a place on the plane and returns the elongation along the first two axes.
+  std::array<double, 2> to(double a, double b) {
+    Vector d{};
+    for (int n = 0; n < 3; ++n) d[n] = a * axes[0][n] + b * axes[1][n] + r * axes[2][n];
+    LSM::FrictionContact contact{fn, 0.0, 0.0, 0.0, false};
+    LSM::friction_contact::Along<3> dxi{};
+    const LSM::friction_contact::Step step{false, 0.0, dt, true};
+    const bool moved = LSM::friction_contact::follow<Law, 3>(step, c, d.data(), r, r + 1.0, touch,
+                                                             h, contact, dxi);
+    const auto done =
+        LSM::friction_contact::next<Law, 3>(moved, c, contact, d.data(), dxi, h);
+    LSM::friction_contact::keep<Law, 3>(done, d.data(), h);
+    lost += done.dissipated;
+    slip += done.slip;
+    return {LSM::friction_contact::dot(done.xi, axes[0]),
+            LSM::friction_contact::dot(done.xi, axes[1])};
+  }
+};
+
+// A particle that is driven around a circle of radius R: its spring, of length e = mu fn / kt,
+// leads to a point that slides in its direction, hence around a circle of radius sqrt(R^2 - e^2) to
+// which the spring is tangent.
+TEST(FrictionInSpace, ASphereDrivenInACircle) {
+  const double R = 2.0, fn = 1.0, e = mu * fn / kt, inner = std::sqrt(R * R - e * e);
+  std::mt19937_64 random(8);
+  double error[2];
+  for (int k = 0; k < 2; ++k) {
+    const int turn = 2000 << k;
+    Contact<LSM::Coulomb> contact({kt, mu, mu}, fn);
+    contact.axes = any_frame(random);
+    double before = 0.0, slip = 0.0;
+    std::array<double, 2> xi{};
+    for (int n = 0; n <= 3 * turn; ++n) {
+      const double angle = 2.0 * std::acos(-1.0) * n / turn;
+      xi = contact.to(R * std::cos(angle), R * std::sin(angle));
+      if (n == 2 * turn) before = contact.lost, slip = contact.slip;
+    }
+    EXPECT_NEAR(std::hypot(xi[0], xi[1]), e, 1e-9);
+    // in the end the particle is at angle 0, and moves along the second axis
+    EXPECT_NEAR(xi[0], e * e / R, 2e-3);
+    EXPECT_NEAR(xi[1], e * inner / R, 2e-3);
+    const double around = 2.0 * std::acos(-1.0) * inner;
+    EXPECT_NEAR(contact.slip - slip, around, 1e-3 * around);
+    error[k] = std::fabs(contact.lost - before - mu * fn * around);
+    EXPECT_LT(error[k], 1e-3 * mu * fn * around);
+  }
+  EXPECT_LT(error[1], 0.6 * error[0]);
+}
+
+/// Along any path on a plane, the work of the spring's force, by the trapezoidal rule, is what it
+/// stores and what friction takes.
+template <class Law>
+void balances(const typename Law::Coefficients &c) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> any;
+  Contact<Law> contact(c, 0.8);
+  contact.axes = any_frame(random);
+  std::array<double, 2> place{}, xi = contact.to(0, 0);
+  double work = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    const double wide = n % 40 < 20 ? 0.3 : 0.003;  // slides and sticks
+    const std::array<double, 2> by = {wide * any(random), wide * any(random)}, before = xi;
+    xi = contact.to(place[0] += by[0], place[1] += by[1]);
+    for (int a : {0, 1}) work += 0.5 * c.kt * (xi[a] + before[a]) * by[a];
+  }
+  const double stored = 0.5 * c.kt * (xi[0] * xi[0] + xi[1] * xi[1]);
+  EXPECT_NEAR(work, stored + contact.lost, 1e-5 * work) << Law::name;
+  EXPECT_GT(contact.lost, 100.0 * stored);
+  EXPECT_GT(contact.slip, 10.0);
+}
+
+TEST(FrictionInSpace, EnergyIsBalancedOnAnyPath) {
+  balances<LSM::Coulomb>({kt, mu, mu});
+  balances<LSM::CoulombStatic>({kt, mu, 0.5});
+  balances<LSM::SlipWeakening>({kt, mu, 0.5, 0.1, 20.0});
+  balances<LSM::VelocityWeakening>({kt, mu, 0.5});
+  balances<LSM::RateStateAgeing>({kt, mu, 0.02, 0.03, 0.1, 0.01, 1.0});
+}
+
+// Around a circle of latitude a vector in the tangent plane turns by the solid angle.
+TEST(FrictionInSpace, ASpringIsCarriedAroundASphere) {
+  using namespace LSM::friction_contact;
+  const double pi = std::acos(-1.0);
+  std::mt19937_64 random(6);
+  for (const double latitude : {0.2, 0.9, 1.5}) {
+    const auto axes = any_frame(random);
+    const auto normal = [&](double angle) {
+      Vector n{};
+      for (int c = 0; c < 3; ++c)
+        n[c] = std::sin(latitude) * (std::cos(angle) * axes[0][c] + std::sin(angle) * axes[1][c]) +
+               std::cos(latitude) * axes[2][c];
+      return n;
+    };
+    double error[2];
+    for (int k = 0; k < 2; ++k) {
+      const int steps = 400 << k;
+      const Vector begun = axes[1];  // to the east at angle 0
+      Vector v = begun;
+      for (int n = 0; n < steps; ++n)
+        v = turned(v, normal(2.0 * pi * n / steps), normal(2.0 * pi * (n + 1) / steps));
+      EXPECT_NEAR(dot(v, v), 1.0, 1e-12);
+      EXPECT_NEAR(dot(v, normal(0)), 0.0, 1e-12);
+      error[k] = std::fabs(dot(v, begun) - std::cos(2.0 * pi * (1.0 - std::cos(latitude))));
+      EXPECT_LT(error[k], 1e-3);
+    }
+    EXPECT_LT(error[1], 0.3 * error[0] + 1e-12) << "of second order";
+  }
+}
+
+// A pair that sticks and turns as a whole is displaced by the arc, in the direction in which it
+// turns in the end, however wide the steps are.
+TEST(FrictionInSpace, APairThatTurnsIsDisplacedByTheArc) {
+  std::mt19937_64 random(9);
+  const double pi = std::acos(-1.0), r = 1.5;
+  for (const int steps : {6, 48}) {
+    Contact<LSM::Coulomb> contact({kt, 1e9, 1e9}, 1.0);
+    contact.axes = any_frame(random);
+    std::array<double, 2> xi{};
+    for (int n = 0; n <= steps; ++n) {  // a quarter turn from the third axis to the first
+      contact.r = r * std::cos(0.5 * pi * n / steps);
+      xi = contact.to(r * std::sin(0.5 * pi * n / steps), 0.0);
+    }
+    const double chords = 2.0 * steps * r * std::sin(0.25 * pi / steps);
+    EXPECT_NEAR(std::sqrt(LSM::friction_contact::square_of<3>(contact.h)), chords, 1e-12);
+    EXPECT_NEAR(LSM::friction_contact::dot({contact.h[0], contact.h[1], contact.h[2]},
+                                           contact.axes[2]),
+                -chords, 1e-12);
+    EXPECT_NEAR(xi[0], 0.0, 1e-12);
+    EXPECT_NEAR(xi[1], 0.0, 1e-12);
+  }
 }
 
 }  // namespace

@@ -76,6 +76,9 @@ void LSMEventSources::find(bool ledger)
   if (!links_ && contacts.empty())
     error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                       "lsm/friction");
+  if (settings_.records_slip() && domain->dimension != 2)
+    error->all(FLERR, "Compute lsm/events {} needs a 2-dimensional simulation (dimension 2)",
+               settings_.asked_by());
   if (settings_.records_slip() && !force->pair_match("lsm/friction", 1))
     error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", settings_.asked_by());
 

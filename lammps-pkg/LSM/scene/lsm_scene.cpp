@@ -68,11 +68,11 @@ namespace LSMScene {
     });
   }
 
-  std::vector<Spring> springs(LAMMPS *lmp, double reach_factor)
+  void for_each_spring(LAMMPS *lmp, double reach_factor,
+                       const std::function<void(const Spring &)> &act)
   {
     Atom *const atom = lmp->atom;
     Force *const force = lmp->force;
-    std::vector<Spring> all;
     double **x = atom->x;
 
     auto add = [&](int i, int j, bool newton, double k, double kt, double viscosity) {
@@ -86,12 +86,13 @@ namespace LSMScene {
       const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
       if (r == 0.0) return;
       for (double &c : s.n) c /= r;
-      all.push_back(s);
+      act(s);
     };
 
     if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
-      for (const auto &link : links->current_links())
+      links->for_each_current([&](const BondLSMLinked::CurrentLink &link) {
         add(link.i, link.j, force->newton_bond, link.stiffness, 0.0, link.viscosity);
+      });
     for (PairLSMFree *contacts : contact_styles(force)) {
       if (!contacts->list) continue;
       int d = 0;
@@ -112,7 +113,6 @@ namespace LSMScene {
         }
       }
     }
-    return all;
   }
 
   double kinetic(const Atom *atom, int group_bits)
@@ -161,6 +161,11 @@ namespace LSMScene {
   {
     if (lmp->domain->dimension != 2)
       lmp->error->all(FLERR, "{} needs a 2-dimensional simulation (dimension 2)", who);
+    require_verlet(lmp, who);
+  }
+
+  void require_verlet(LAMMPS *lmp, const std::string &who)
+  {
     if (utils::strmatch(lmp->update->integrate_style, "^respa"))
       lmp->error->all(FLERR, "{} does not work with run_style respa", who);
   }

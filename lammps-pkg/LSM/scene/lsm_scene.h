@@ -6,6 +6,7 @@
 #define LMP_LSM_SCENE_H
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,9 @@ namespace LSMScene {
     std::array<double, 3> n;
   };
 
-  /// Links and contacts of this rank as springs about the present positions; also pairs that are
-  /// about to touch.
-  std::vector<Spring> springs(LAMMPS *, double reach_factor);
+  /// Passes on links and contacts of this rank as springs about the present positions; also pairs
+  /// that are about to touch.
+  void for_each_spring(LAMMPS *, double reach_factor, const std::function<void(const Spring &)> &);
 
   /// Kinetic energy of this rank's particles that are in none of the groups.
   double kinetic(const Atom *, int group_bits);
@@ -62,6 +63,8 @@ namespace LSMScene {
   /// Stops unless the simulation is 2-dimensional and steps are those of velocity Verlet; `who`
   /// begins the message.
   void require_plane(LAMMPS *, const std::string &who);
+  /// The same without a condition for the dimension.
+  void require_verlet(LAMMPS *, const std::string &who);
 
   /// Stops if a fix changes particle radii during a run; `who` begins the message.
   void refuse_changing_radii(LAMMPS *, const std::string &who);

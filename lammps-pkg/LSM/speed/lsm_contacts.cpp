@@ -6,9 +6,10 @@
 
 using namespace LAMMPS_NS;
 
-void LSMContacts::begin(int size)
+void LSMContacts::begin(int size, int dimension)
 {
   state_size = size;
+  dim = dimension;
   pairs.clear();
   ends.clear();
   limit.clear();
@@ -24,12 +25,16 @@ void LSMContacts::add(const Pair &pair, bool touching)
   states.resize(states.size() + state_size, 0.0);
 }
 
-// Whether a pair touches is unpredictable for the processor, so the loop has no branches. Distances
-// along x and y suffice to leave out nearly all other pairs, in three dimensions, too.
 void LSMContacts::find(const double *x)
 {
+  dim == 3 ? find_in<3>(x) : find_in<2>(x);
+}
+
+// Whether a pair touches is unpredictable for the processor, so the loop has no branches.
+template <int DIM> void LSMContacts::find_in(const double *x)
+{
   found.resize(pairs.size());
-  for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
+  for (auto &of_a_step : vectors) of_a_step.resize(DIM * pairs.size());
   newest = 1 - newest;
   const Ends *const end = ends.data();
   const double *const most = limit.data();
@@ -41,10 +46,16 @@ void LSMContacts::find(const double *x)
   for (int m = 0; m < n; m++) {
     const double *const a = x + end[m].i, *const b = x + end[m].j;
     const double dx = a[0] - b[0], dy = a[1] - b[1];
-    vector[2 * m] = dx;
-    vector[2 * m + 1] = dy;
+    double square = dx * dx + dy * dy;
+    vector[DIM * m] = dx;
+    vector[DIM * m + 1] = dy;
+    if constexpr (DIM == 3) {
+      const double dz = a[2] - b[2];
+      square += dz * dz;
+      vector[DIM * m + 2] = dz;
+    }
     to[touching] = m;    // overwritten by the next one unless the number advances
-    touching += !(dx * dx + dy * dy > most[m]);
+    touching += !(square > most[m]);
   }
   number = touching;
 }

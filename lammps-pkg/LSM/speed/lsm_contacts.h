@@ -24,7 +24,8 @@ class LSMContacts {
     double size;    ///< effective size of the contact
   };
   /// \param state_size  numbers that are remembered of each pair
-  void begin(int state_size);
+  /// \param dimension   of the vectors of the pairs, 2 or 3
+  void begin(int state_size, int dimension);
   /// Adds a pair whose state is zero.
   /// \param touching  see is_touching()
   void add(const Pair &, bool touching);
@@ -37,10 +38,10 @@ class LSMContacts {
   /// these, in the same order.
   int size() const { return number; }
   int operator[](int n) const { return found[n]; }
-  /// From the second to the first particle of a pair, along x and y: now, and in the step before;
-  /// the latter only if the pair was there then.
-  const double *vector(int place) const { return &vectors[newest][2 * place]; }
-  const double *vector_before(int place) const { return &vectors[1 - newest][2 * place]; }
+  /// From the second to the first particle of a pair, in the plane or in
+  /// space: now, and in the step before; the latter only if the pair was there then.
+  const double *vector(int place) const { return &vectors[newest][dim * place]; }
+  const double *vector_before(int place) const { return &vectors[1 - newest][dim * place]; }
   /// Whether a pair is found at any distance.
   bool is_touching(int place) const
   {
@@ -66,10 +67,13 @@ class LSMContacts {
   std::vector<double> limit;    // square of the distance up to which a pair is found
   std::vector<double> vectors[2];
   std::vector<double> states;
-  int state_size = 0, newest = 0;
+  int state_size = 0, dim = 2, newest = 0;
   int before = 0, at_last_find = 0;
   std::vector<int> found;    // the first `number` of them touch now
   int number = 0;
+
+ private:
+  template <int DIM> void find_in(const double *x);
 };
 
 }    // namespace LAMMPS_NS

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <type_traits>
 
 namespace LAMMPS_NS {
 namespace LSMFriction {
@@ -30,9 +31,10 @@ namespace LSMFriction {
     /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
     /// this rank's share of its power. Called only if the scene is viscous.
     virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
-    /// Tallies LAMMPS' own energy and virial. Called only by a recorder that tallies.
-    virtual void tally(const LSMContacts::Pair &, double energy, double fx, double fy, double delx,
-                       double dely) = 0;
+    /// Tallies LAMMPS' own energy and virial, from the force on the first particle and the vector to
+    /// it from the second. Called only by a recorder that tallies.
+    virtual void tally(const LSMContacts::Pair &, double energy, const Vector &force,
+                       const Vector &del) = 0;
   };
 
   /// What the loop reads and writes.
@@ -53,18 +55,18 @@ namespace LSMFriction {
     bool viscous;                                ///< contacts have dashpots
   };
 
-  /// The loop over the pairs that touch, compiled for each law and recorder. The setup of a run
+  /// The loop over the pairs that touch, compiled for each law, recorder and number of dimensions. The setup of a run
   /// evaluates the forces of a step that was done: the state of the contacts stays, so that a run
   /// in pieces equals one run, and a contact that slides goes on sliding. Only where a command
   /// moved particles since, by more than they are rounded when they cross a border of the box,
   /// their contacts follow.
-  template <class Law, class Recorder> class Loop {
+  template <class Law, class Recorder, int DIM> class Loop {
    public:
     explicit Loop(const Scene &of) :
         scene(of), contacts(of.contacts), states(of.contacts.state(0)), x(of.x), f(of.f),
         nlocal(of.nlocal), reach_sq(of.reach * of.reach), step(of.step),
-        side_by_side(Law::state_size == 0 && !Recorder::tallies && !step.setup && !of.screened &&
-                     !of.viscous),
+        side_by_side(DIM == 2 && Law::state_size == 0 && !Recorder::tallies && !step.setup &&
+                     !of.screened && !of.viscous),
         recorder(of.energies, step.setup)
     {
     }
@@ -73,29 +75,31 @@ namespace LSMFriction {
     {
       const int count = contacts.size();
       for (int first = 0; first < count; first += LANES) {
-        if (side_by_side) continue_all(first, count);
+        if constexpr (DIM == 2)
+          if (side_by_side) continue_all(first, count);
         for (int n = first; n < std::min(first + LANES, count); n++) {
           const int place = contacts[n], lane = n - first;
           const bool before = contacts.is_touching(place);
           double *const h = states + static_cast<size_t>(place) * size;
-          if (side_by_side && before && block.rsq[lane] < block.r0[lane] * block.r0[lane]) {
-            const Site &site = contacts.pair(place);
-            const bool both = is_both(site);
-            const Push push = block.push(lane);
-            if constexpr (Recorder::records) record(site, false, push, both);
-            keep<Law>(push.step, block.delx[lane], block.dely[lane], h);
-            add_forces(site, push, both);
-            continue;
-          }
+          if constexpr (DIM == 2)
+            if (side_by_side && before && block.rsq[lane] < block.r0[lane] * block.r0[lane]) {
+              const Site &site = contacts.pair(place);
+              const bool both = is_both(site);
+              const Push push = block.push(lane);
+              if constexpr (Recorder::records) record(site, false, push, both);
+              keep<Law, DIM>(push.step, contacts.vector(place), h);
+              add_forces(site, push, both);
+              continue;
+            }
           if (!side_by_side && n + AHEAD < count) fetch_forces(contacts.pair(contacts[n + AHEAD]));
           bool touch = before;
           if (!before && place < contacts.kept_before()) {
             const double *const d = contacts.vector_before(place), r0 = contacts.pair(place).r0;
-            keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
+            keep_near<DIM>(square_of<DIM>(d) <= reach_sq * r0 * r0, d, touch, h);
           } else if (!before)
-            touch = h[STATUS] == NEAR;
+            touch = h[Is::STATUS] == NEAR;
           evaluate(place, touch, h);
-          const bool after = touch && h[STATUS] != NEAR;
+          const bool after = touch && h[Is::STATUS] != NEAR;
           if (after != before) contacts.set_touching(place, after);
         }
       }
@@ -104,7 +108,8 @@ namespace LSMFriction {
 
    private:
     using Site = LSMContacts::Pair;
-    static constexpr int LANES = 32, AHEAD = 8, size = LAW_STATE + Law::state_size;
+    using Is = Kept<DIM>;
+    static constexpr int LANES = 32, AHEAD = 8, size = Is::LAW_STATE + Law::state_size;
     const Scene &scene;
     LSMContacts &contacts;
     double *const states;
@@ -117,59 +122,69 @@ namespace LSMFriction {
     Recorder recorder;
 
     struct Geometry {
-      double rsq, r, nx, ny;
+      double rsq, r, n[DIM];
 
-      Geometry(double delx, double dely) : rsq(delx * delx + dely * dely), r(sqrt(rsq))
+      explicit Geometry(const double *d) : rsq(square_of<DIM>(d)), r(sqrt(rsq))
       {
         const double rinv = r > 0.0 ? 1.0 / r : 0.0;
-        nx = delx * rinv;
-        ny = dely * rinv;
+        for (int c = 0; c < DIM; c++) n[c] = d[c] * rinv;
       }
     };
 
+    using Done = std::conditional_t<DIM == 3, VectorStep, LSM::FrictionStep>;
     struct Push {
-      double fx, fy;                // on the first particle
+      double f[DIM];                // on the first particle
       double normal, tangential;    // energies of the springs
-      LSM::FrictionStep step;
+      Done step;
     };
     [[gnu::always_inline]] static Push push_of(const Geometry &g, double stretch, double k,
-                                               double kt, double fn, const LSM::FrictionStep &s)
+                                               double kt, double fn, const Done &s)
     {
-      return {fn * g.nx + s.force * g.ny, fn * g.ny - s.force * g.nx,
-              LSM::Spring::energy(k, stretch), LSM::Spring::energy(kt, s.xi), s};
+      const double normal = LSM::Spring::energy(k, stretch);
+      if constexpr (DIM == 3) {
+        Push push = {{}, normal, 0.5 * kt * dot(s.xi, s.xi), s};
+        for (int c = 0; c < 3; c++) push.f[c] = fn * g.n[c] - kt * s.xi[c];
+        return push;
+      } else
+        return {{fn * g.n[0] + s.force * g.n[1], fn * g.n[1] - s.force * g.n[0]},
+                normal,
+                LSM::Spring::energy(kt, s.xi),
+                s};
     }
 
     // Most contacts were there in the step before: those that follow each other are computed side
     // by side, in a loop that compilers turn into vectors, and take their turn afterwards. It gives
     // the same digits with each instruction set.
     struct alignas(64) Block {
-      double delx[LANES], dely[LANES], h[LAW_STATE][LANES];
+      double delx[LANES], dely[LANES], h[Is::LAW_STATE][LANES];
       double r0[LANES], k[LANES], coefficients[std::size(Law::parameters)][LANES];
       double rsq[LANES], fx[LANES], fy[LANES], normal[LANES], tangential[LANES];
       double slip[LANES], dissipated[LANES];
 
       Push push(int n) const
       {
-        const bool slides = Law::needs_sliding && h[STATUS][n] == SLIDES;
-        const LSM::FrictionStep s = {h[XI][n], 0.0, slip[n], dissipated[n], slides};
-        return {fx[n], fy[n], normal[n], tangential[n], s};
+        const bool slides = Law::needs_sliding && h[Is::STATUS][n] == SLIDES;
+        const LSM::FrictionStep s = {h[Is::XI][n], 0.0, slip[n], dissipated[n], slides};
+        return {{fx[n], fy[n]}, normal[n], tangential[n], s};
       }
       [[gnu::always_inline]] void solve(double time)
       {
         for (int n = 0; n < LANES; n++) {
-          const Geometry g(delx[n], dely[n]);
+          const double del[] = {delx[n], dely[n]};
+          const Geometry g(del);
           const auto c =
               LSM::coefficients_of<Law>([this, n](std::size_t p) { return coefficients[p][n]; });
-          const LSM::FrictionContact contact{LSM::contact_normal_force(k[n], g.r, r0[n]), h[XI][n],
-                                             displacement(delx[n], dely[n], h[DX][n], h[DY][n]),
-                                             time, Law::needs_sliding && h[STATUS][n] == SLIDES};
+          const LSM::FrictionContact contact{
+              LSM::contact_normal_force(k[n], g.r, r0[n]), h[Is::XI][n],
+              displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]), time,
+              Law::needs_sliding && h[Is::STATUS][n] == SLIDES};
           const Push done =
               push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
           rsq[n] = g.rsq;
-          fx[n] = done.fx;
-          fy[n] = done.fy;
-          h[XI][n] = done.step.xi;
-          if constexpr (Law::needs_sliding) h[STATUS][n] = done.step.sliding ? SLIDES : STICKS;
+          fx[n] = done.f[0];
+          fy[n] = done.f[1];
+          h[Is::XI][n] = done.step.xi;
+          if constexpr (Law::needs_sliding) h[Is::STATUS][n] = done.step.sliding ? SLIDES : STICKS;
           if constexpr (!Recorder::records) continue;
           normal[n] = done.normal;
           tangential[n] = done.tangential;
@@ -179,7 +194,8 @@ namespace LSMFriction {
       }
       LSM_AVX2 void solve_avx2(double time) { solve(time); }
     };
-    Block block;
+    struct NoBlock {};
+    std::conditional_t<DIM == 2, Block, NoBlock> block;
 
     // Prefetches the forces of a contact's particles, which are far from each other in memory.
     void fetch_forces(const Site &site) const
@@ -197,7 +213,7 @@ namespace LSMFriction {
         const double *const h = states + static_cast<size_t>(place) * size;
         block.delx[lane] = d[0];
         block.dely[lane] = d[1];
-        for (int c = 0; c < LAW_STATE; c++) block.h[c][lane] = h[c];
+        for (int c = 0; c < Is::LAW_STATE; c++) block.h[c][lane] = h[c];
         block.r0[lane] = site.r0;
         block.k[lane] = scene.k.at(site.types);
         for (std::size_t p = 0; p < std::size(Law::parameters); p++)
@@ -223,54 +239,57 @@ namespace LSMFriction {
     [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
     {
       const Site &site = contacts.pair(place);
-      const double r0 = site.r0, delx = contacts.vector(place)[0], dely = contacts.vector(place)[1];
-      const Geometry g(delx, dely);
+      const double r0 = site.r0;
+      const double *const d = contacts.vector(place);
+      const Geometry g(d);
       const bool apart = g.rsq >= r0 * r0;
       if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
       if (scene.screened && scene.host.is_left_out(place)) {
         touch = false;
         return;
       }
-      if (apart && (!touch || h[STATUS] == NEAR)) {
-        keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+      if (apart && (!touch || h[Is::STATUS] == NEAR)) {
+        keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;
       }
       const auto c = LSM::coefficients_of<Law>(
           [this, &site](std::size_t p) { return scene.coefficients[p].at(site.types); });
 
       LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
-      const bool moved = follow<Law>(step, c, delx, dely, g.r, r0, touch, h, contact);
+      Along<DIM> dxi{};
+      const bool moved = follow<Law, DIM>(step, c, d, g.r, r0, touch, h, contact, dxi);
       const bool both = is_both(site);
       contact.fn = normal_force(site, g.r, apart, both);
       const Push push = push_of(g, apart ? 0.0 : g.r - r0, scene.k.at(site.types), c.kt, contact.fn,
-                                next<Law>(moved || apart, c, contact, h));
+                                next<Law, DIM>(moved || apart, c, contact, d, dxi, h));
       if constexpr (Recorder::records) record(site, apart, push, both);
       if (apart) {
-        keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+        keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;
       }
-      keep<Law>(push.step, delx, dely, h);
+      keep<Law, DIM>(push.step, d, h);
       add_forces(site, push, both);
-      if constexpr (Recorder::tallies)
-        scene.host.tally(site, push.normal + push.tangential, push.fx, push.fy, delx, dely);
+      if constexpr (Recorder::tallies) {
+        Vector force{}, del{};
+        std::copy_n(push.f, DIM, force.begin());
+        std::copy_n(d, DIM, del.begin());
+        scene.host.tally(site, push.normal + push.tangential, force, del);
+      }
     }
 
     [[gnu::always_inline]] void add_forces(const Site &site, const Push &push, bool both)
     {
       double *const fi = f + 3 * static_cast<size_t>(site.i);
       double *const fj = f + 3 * static_cast<size_t>(site.j);
-      fi[0] += push.fx;
-      fi[1] += push.fy;
-      if (both) {
-        fj[0] -= push.fx;
-        fj[1] -= push.fy;
-      }
+      for (int c = 0; c < DIM; c++) fi[c] += push.f[c];
+      if (!both) return;
+      for (int c = 0; c < DIM; c++) fj[c] -= push.f[c];
     }
 
     [[gnu::always_inline]] void record(const Site &site, bool apart, const Push &push, bool both)
     {
       const double share = both ? 1.0 : 0.5;
-      const LSM::FrictionStep &s = push.step;
+      const Done &s = push.step;
       recorder.springs(share, push.normal, push.tangential);
       recorder.dissipation(share, s.dissipated);
       recorder.slip(share, fabs(s.slip) * site.size);
@@ -279,9 +298,15 @@ namespace LSMFriction {
         recorder.within(share, s.dissipated);
         return;
       }
-      const double place =
-          0.5 * (x[3 * static_cast<size_t>(site.i)] + x[3 * static_cast<size_t>(site.j)]);
-      recorder.contact({place, s.dissipated, -site.across * (apart ? 0.0 : push.fx), share});
+      const double *const xi = x + 3 * static_cast<size_t>(site.i);
+      const double *const xj = x + 3 * static_cast<size_t>(site.j);
+      const auto on_lower = [&](int c) { return -site.across * (apart ? 0.0 : push.f[c]); };
+      LSM::FaultContact one = {0.5 * (xi[0] + xj[0]), s.dissipated, on_lower(0), share};
+      if constexpr (DIM == 3) {
+        one.z = 0.5 * (xi[2] + xj[2]);
+        one.force_z = on_lower(2);
+      }
+      recorder.contact(one);
     }
   };
 

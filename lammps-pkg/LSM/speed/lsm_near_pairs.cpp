@@ -3,6 +3,7 @@
 #include "lsm_near_pairs.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "force.h"
 #include "friction/force_laws.h"
 #include "friction/friction_contact.h"
@@ -221,7 +222,7 @@ void LSMNearPairs::choose(const double *x)
     most += all | touching | !(dx * dx + dy * dy + dz * dz > far * far);
   }
 
-  begin(stored_size);
+  begin(stored_size, lmp_->domain->dimension);
   known_states = 0;
   for (int m = 0; m < most; m++) {
     const Listed &pair = listed[chosen[m]];
@@ -234,11 +235,12 @@ void LSMNearPairs::read_states()
 {
   if (!store) return;
   states_build = build_number;
+  const int status = dim == 3 ? Kept<3>::STATUS : Kept<2>::STATUS;
   for (; known_states < count(); known_states++) {
     const Pair &pair = pairs[known_states];
     double *const h = state(known_states);
     std::copy_n(store->values_of(pair.i, pair.jj), state_size, h);
-    if (h[STATUS] == NEAR) set_touching(known_states, false);
+    if (h[status] == NEAR) set_touching(known_states, false);
   }
 }
 
@@ -253,10 +255,10 @@ void LSMNearPairs::write_states()
     bool touch = is_touching(place);
     if (!touch) {
       const double *const d = vector(place);
-      const bool is_near =
-          d[0] * d[0] + d[1] * d[1] <= state_reach * state_reach * pair.r0 * pair.r0 &&
+      const double square = dim == 3 ? square_of<3>(d) : square_of<2>(d);
+      const bool is_near = square <= state_reach * state_reach * pair.r0 * pair.r0 &&
           !(screened && is_left_out(place));
-      keep_near(is_near, d[0], d[1], touch, h);
+      dim == 3 ? keep_near<3>(is_near, d, touch, h) : keep_near<2>(is_near, d, touch, h);
     }
     std::copy_n(h, state_size, store->values_of(pair.i, pair.jj));
     *store->touch_of(pair.i, pair.jj) = touch;

@@ -5,6 +5,7 @@
 #define LMP_LSM_RESTART_FILE_H
 
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "files/state.h"
 #include "lsm_restart_version.h"
@@ -42,9 +43,10 @@ class LSMRestartFile : public LSM::StateVisitor<LSMRestartFile>, protected Point
   /// Writes, or reads and checks, the version with which the data of each style begin.
   void version()
   {
-    int found = LSM_RESTART_VERSION;
+    const int wanted = domain->dimension == 3 ? LSM_RESTART_VERSION_3D : LSM_RESTART_VERSION;
+    int found = wanted;
     one(found);
-    lsm_check_version(error, found);
+    lsm_check_version(error, found, wanted);
   }
 
  private:

@@ -10,14 +10,16 @@ namespace LAMMPS_NS {
 
 /// To be raised with every change of what a style writes.
 constexpr int LSM_RESTART_VERSION = 3;
+/// Of force styles in three dimensions, where links have a factor of their rest length.
+constexpr int LSM_RESTART_VERSION_3D = 4;
 
-inline void lsm_check_version(Error *error, int found)
+inline void lsm_check_version(Error *error, int found, int expected = LSM_RESTART_VERSION)
 {
-  if (found != LSM_RESTART_VERSION)
+  if (found != expected)
     error->all(FLERR,
                "The restart file was written by another version of package LSM, expected "
                "version {} of its data; begin anew, or use that version",
-               LSM_RESTART_VERSION);
+               expected);
 }
 
 }    // namespace LAMMPS_NS

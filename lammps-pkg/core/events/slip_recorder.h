@@ -14,12 +14,15 @@
 
 namespace LSM {
 
-/// A contact between the two sides of a fault along x in one force evaluation.
+/// A contact between the two sides of a fault along x, and in three dimensions along z, in one force
+/// evaluation.
 struct FaultContact {
-  double x;      ///< middle between the two centres
-  double work;   ///< lost to friction
-  double force;  ///< on the lower particle along x
-  double share;  ///< 1, or 0.5 where another rank has the contact as well
+  double x;              ///< middle between the two centres
+  double work;           ///< lost to friction
+  double force;          ///< on the lower particle along x
+  double share;          ///< 1, or 0.5 where another rank has the contact as well
+  double z = 0.0;        ///< middle along z
+  double force_z = 0.0;  ///< on the lower particle along z
 };
 
 /// Displacement along x of a particle of one of the two faces of the fault, in so many steps.
