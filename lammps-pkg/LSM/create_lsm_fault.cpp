@@ -2,6 +2,7 @@
 
 #include "create_lsm_fault.h"
 
+#include "fault/cubic_lattice.h"
 #include "fault/lattice.h"
 #include "fault/packing.h"
 #include "lsm_keyword_reader.h"
@@ -36,9 +37,9 @@ static constexpr int PLATE = 5;
 static constexpr int LINK_TYPE = 1;
 static constexpr int BORDER_LINK_TYPE = 2;    // links in the border of a lattice
 
-static int type_of(const LSM::Disc &disc)
+static int type_of(bool plate, bool fault, int block)
 {
-  return (disc.plate ? PLATE : (disc.fault ? FAULT_ZONE : BULK)) + disc.block;
+  return (plate ? PLATE : (fault ? FAULT_ZONE : BULK)) + block;
 }
 
 // returns the disc that stores the link first: the smaller one, which has fewer links, so that the
@@ -54,9 +55,18 @@ CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) : Command(lmp_in), types(NTYPES) 
 void CreateLSMFault::command(int narg, char **arg)
 {
   lattice = narg > 0 && strcmp(arg[0], "lattice") == 0;
+  cubic = lattice && narg > 1 && strcmp(arg[1], "cubic") == 0;
   check_setup();
   MPI_Barrier(world);
   const double begun = platform::walltime();
+
+  if (cubic) {
+    create_cubic(parse_cubic(narg, arg));
+    if (comm->me == 0)
+      utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds\n",
+                     platform::walltime() - begun);
+    return;
+  }
 
   LSM::Packing packing;
   LSM::PackingSettings random;
@@ -71,12 +81,16 @@ void CreateLSMFault::command(int narg, char **arg)
   const double packed = platform::walltime();
 
   const std::vector<double> masses = masses_of(packing, random.length);
-  create_box(lattice ? box_of(regular) : box_of(random), most_links_stored(packing));
+  create_box(lattice ? box_of(regular) : box_of(random), lattice ? BORDER_LINK_TYPE : LINK_TYPE,
+             most_links_stored(packing));
   add_particles(packing, masses);
   Special(lmp).build();
   MPI_Barrier(world);
   if (comm->me == 0) {
-    report_types(packing);
+    std::vector<bigint> counts(NTYPES, 0);
+    for (const auto &disc : packing.discs)
+      ++counts[type_of(disc.plate, disc.fault, disc.block) - 1];
+    report_types(static_cast<bigint>(packing.links.size()), counts);
     if (!lattice) report(random, packing);
     report_masses(packing, masses);
     utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
@@ -91,13 +105,7 @@ void CreateLSMFault::check_setup()
     error->all(FLERR, "Create_lsm_fault creates the simulation box, but one exists already");
   if (strcmp(update->unit_style, "lj") != 0)
     error->all(FLERR, "Create_lsm_fault requires units lj, found units {}", update->unit_style);
-  if (domain->dimension != 2)
-    error->all(FLERR, "Create_lsm_fault requires dimension 2, found dimension {}",
-               domain->dimension);
-  if ((!lattice && !domain->xperiodic) || domain->yperiodic || !domain->zperiodic)
-    error->all(FLERR,
-               "Create_lsm_fault requires boundary p f p: periodic in x and z, not periodic in y{}",
-               lattice ? "; or f f p" : "");
+  check_box_and_dimension();
   if (atom->molecular != Atom::MOLECULAR || !atom->avec->bonds_allow || !atom->radius_flag ||
       !atom->rmass_flag)
     error->all(FLERR,
@@ -111,6 +119,27 @@ void CreateLSMFault::check_setup()
   if (comm->me == 0 && !as_needed)
     error->warning(FLERR, "Linked particles must not be contact pairs and all others must be: "
                           "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
+}
+
+void CreateLSMFault::check_box_and_dimension()
+{
+  if (cubic) {
+    if (domain->dimension != 3)
+      error->all(FLERR, "Create_lsm_fault lattice cubic requires dimension 3, found dimension {}",
+                 domain->dimension);
+    if (domain->yperiodic)
+      error->all(FLERR, "Create_lsm_fault lattice cubic requires a boundary that is not periodic "
+                        "in y, and in x and z f or p");
+    return;
+  }
+  if (domain->dimension != 2)
+    error->all(FLERR, "Create_lsm_fault requires dimension 2, found dimension {}; in dimension 3 "
+                      "use create_lsm_fault lattice cubic",
+               domain->dimension);
+  if ((!lattice && !domain->xperiodic) || domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR,
+               "Create_lsm_fault requires boundary p f p: periodic in x and z, not periodic in y{}",
+               lattice ? "; or f f p" : "");
 }
 
 void CreateLSMFault::read(LSMKeywordReader in, LSM::Keywords keywords,
@@ -163,6 +192,70 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
         {"spacing", &settings.spacing, Must::positive}},
        {"length", "width", "spacing"});
   if (margin == 0.0) margin = settings.spacing;
+}
+
+LSM::CubicLattice CreateLSMFault::parse_cubic(int narg, char **arg)
+{
+  LSM::CubicLattice::Sizes sizes;
+  sizes.ring_x = domain->xperiodic;
+  sizes.ring_z = domain->zperiodic;
+  margin = 0.0;
+  read({lmp, "Create_lsm_fault lattice cubic", 2, narg, arg},
+       {{"length", &sizes.length, Must::positive},
+        {"width", &sizes.width, Must::positive},
+        {"depth", &sizes.depth, Must::positive},
+        {"spacing", &sizes.spacing, Must::positive}},
+       {"length", "width", "depth", "spacing"});
+  diameter = sizes.spacing;
+  if (margin == 0.0) margin = diameter;
+  try {
+    return LSM::CubicLattice(sizes);
+  } catch (std::invalid_argument &problem) {
+    error->all(FLERR, "Create_lsm_fault lattice cubic: {}", problem.what());
+  }
+  return {};
+}
+
+// Each rank places the nodes of its sub-domain: the lattice is not stored anywhere.
+void CreateLSMFault::create_cubic(const LSM::CubicLattice &nodes)
+{
+  std::string limits;
+  for (int axis = 0; axis < 3; axis++) {
+    auto [low, high] = nodes.limits(axis);
+    if (axis == 1) {
+      low += 0.5 * diameter - margin;
+      high += margin - 0.5 * diameter;
+    }
+    limits += fmt::format("{:.17g} {:.17g} ", low, high);
+  }
+  const bool half = force->newton_bond;
+  create_box(limits, LSM::CubicLattice::LINK_TYPES, LSM::CubicLattice::LINKS / (half ? 2 : 1));
+
+  const double inside = mass_of(0.5 * diameter);
+  bigint mine[NTYPES + 1] = {};    // particles of each type, and links
+  LSM::CubicLattice::Node n;
+  for (n.y = 0; n.y < nodes.count(1); n.y++)
+    for (n.z = 0; n.z < nodes.count(2); n.z++)
+      for (n.x = 0; n.x < nodes.count(0); n.x++) {
+        const auto x = nodes.place(n);
+        if (!is_mine(x.data())) continue;
+        const int type = type_of(nodes.in_plate(n), nodes.in_fault(n), nodes.block(n));
+        add_particle(nodes.id(n), type, x.data(), 0.5 * diameter, nodes.share(n) * inside,
+                     nodes.block(n));
+        mine[type - 1]++;
+        const int i = atom->nlocal - 1;
+        nodes.for_links(n, half, [&](const LSM::CubicLattice::Node &to, int link) {
+          atom->bond_type[i][atom->num_bond[i]] = link;
+          atom->bond_atom[i][atom->num_bond[i]++] = static_cast<tagint>(nodes.id(to));
+        });
+        mine[NTYPES] += atom->num_bond[i];
+      }
+  bigint all[NTYPES + 1];
+  MPI_Allreduce(mine, all, NTYPES + 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint links = half ? all[NTYPES] : all[NTYPES] / 2;
+  finish_particles(nodes.size(), links);
+  Special(lmp).build();
+  if (comm->me == 0) report_types(links, {all, all + NTYPES});
 }
 
 // Rank 0 packs and sends its result to all others: the same scene on any number of ranks, even if
@@ -241,23 +334,63 @@ template <class Command> static void with_words(const std::string &line, Command
   command(static_cast<int>(pointers.size()), pointers.data());
 }
 
-void CreateLSMFault::create_box(const std::string &limits, int bonds_per_atom)
+void CreateLSMFault::create_box(const std::string &limits, int link_types, int bonds_per_atom)
 {
   const std::string region = "create_lsm_fault_box";
   with_words(region + " block " + limits + " units box",
              [this](int narg, char **arg) { domain->add_region(narg, arg); });
   with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region,
-                         lattice ? BORDER_LINK_TYPE : LINK_TYPE, bonds_per_atom),
+                         link_types, bonds_per_atom),
              [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
   domain->delete_region(region);
 
   // the order of the particles suits links and contacts better than that of LAMMPS' sorting
   atom->sortfreq = 0;
 
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+
   // never used, as each particle has its own mass, but write_data writes these masses as well
   // and read_data refuses zeros
   if (atom->mass)
     for (int itype = 1; itype <= types; itype++) atom->set_mass(FLERR, itype, 1.0);
+}
+
+bool CreateLSMFault::is_mine(const double *x) const
+{
+  const double *sublo = domain->sublo, *subhi = domain->subhi;
+  for (int c = 0; c < domain->dimension; c++)
+    if (x[c] < sublo[c] || x[c] >= subhi[c]) return false;
+  return true;
+}
+
+void CreateLSMFault::add_particle(bigint id, int type, const double *x, double radius, double mass,
+                                  int block)
+{
+  double place[3] = {x[0], x[1], x[2]};
+  atom->avec->create_atom(type, place);
+  const int m = atom->nlocal - 1;
+  atom->tag[m] = static_cast<tagint>(id);
+  atom->radius[m] = radius;
+  atom->rmass[m] = mass;
+  if (atom->molecule_flag) atom->molecule[m] = block + 1;
+}
+
+// completes what LAMMPS knows of the particles and links that were added
+void CreateLSMFault::finish_particles(bigint count, bigint links)
+{
+  atom->nbonds = links;
+  atom->data_fix_compute_variable(0, atom->nlocal);
+
+  atom->natoms = lsm_total(static_cast<bigint>(atom->nlocal), world);
+  if (atom->natoms != count)
+    error->all(FLERR, "Create_lsm_fault: {} of {} particles have an owner", atom->natoms, count);
+
+  atom->tag_check();
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
 }
 
 // Each rank adds the particles in its sub-domain and their links. A particle's ID is its place in
@@ -266,36 +399,16 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
 {
   const int n = static_cast<int>(packing.discs.size());
   std::vector<int> local(n, -1);
-  const double *sublo = domain->sublo, *subhi = domain->subhi;
-
-  atom->nghost = 0;
-  atom->avec->clear_bonus();
-
   for (int i = 0; i < n; i++) {
     const LSM::Disc &disc = packing.discs[i];
-    double x[3] = {disc.x, disc.y, 0.0};
-    if (x[0] < sublo[0] || x[0] >= subhi[0] || x[1] < sublo[1] || x[1] >= subhi[1]) continue;
-    atom->avec->create_atom(type_of(disc), x);
-    const int m = atom->nlocal - 1;
-    local[i] = m;
-    atom->tag[m] = i + 1;
-    atom->radius[m] = disc.r;
-    atom->rmass[m] = masses[i];
-    if (atom->molecule_flag) atom->molecule[m] = disc.block + 1;
+    const double x[3] = {disc.x, disc.y, 0.0};
+    if (!is_mine(x)) continue;
+    local[i] = atom->nlocal;
+    add_particle(i + 1, type_of(disc.plate, disc.fault, disc.block), x, disc.r, masses[i],
+                 disc.block);
   }
   add_links(packing, local);
-
-  atom->data_fix_compute_variable(0, atom->nlocal);
-
-  atom->natoms = lsm_total(static_cast<bigint>(atom->nlocal), world);
-  if (atom->natoms != n)
-    error->all(FLERR, "Create_lsm_fault: {} of {} particles have an owner", atom->natoms, n);
-
-  atom->tag_check();
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
+  finish_particles(n, static_cast<bigint>(packing.links.size()));
 }
 
 // local holds the local index of each particle, or -1 if it is on another rank
@@ -313,20 +426,15 @@ void CreateLSMFault::add_links(const LSM::Packing &packing, const std::vector<in
     add(ends.first, ends.second);
     if (!force->newton_bond) add(ends.second, ends.first);
   }
-  atom->nbonds = static_cast<bigint>(packing.links.size());
 }
 
-void CreateLSMFault::report_types(const LSM::Packing &packing)
+void CreateLSMFault::report_types(bigint links, const std::vector<bigint> &of_types)
 {
   static const char *names[NTYPES] = {"lower block",      "upper block", "lower fault zone",
                                       "upper fault zone", "lower plate", "upper plate"};
-  int counts[NTYPES] = {0};
-  for (const auto &disc : packing.discs) ++counts[type_of(disc) - 1];
-
-  utils::logmesg(lmp, "Created {} particles and {} links\n", packing.discs.size(),
-                 packing.links.size());
+  utils::logmesg(lmp, "Created {} particles and {} links\n", atom->natoms, links);
   for (int i = 0; i < NTYPES; i++)
-    utils::logmesg(lmp, "  type {} = {:<16} : {} particles\n", i + 1, names[i], counts[i]);
+    utils::logmesg(lmp, "  type {} = {:<16} : {} particles\n", i + 1, names[i], of_types[i]);
 }
 
 void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing)

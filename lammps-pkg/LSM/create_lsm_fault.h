@@ -18,6 +18,7 @@ CommandStyle(create_lsm_fault,CreateLSMFault);
 #include <vector>
 
 namespace LSM {
+class CubicLattice;
 struct LatticeSettings;
 struct Packing;
 struct PackingSettings;
@@ -39,9 +40,14 @@ class CreateLSMFault : public Command {
   double margin = 2.0;        // empty space beyond each plate
   double stiffness = 1.0;     // of links and contacts, for step
   bool lattice = false;       // mirrored rows of equal discs, not a random packing
+  bool cubic = false;         // in three dimensions
+  double diameter = 0.0;      // of the nodes of a cubic lattice
   int types;                  // number of atom types
 
   void check_setup();
+  void check_box_and_dimension();
+  LSM::CubicLattice parse_cubic(int, char **);
+  void create_cubic(const LSM::CubicLattice &);
   void parse(int, char **, LSM::PackingSettings &);
   void parse(int, char **, LSM::LatticeSettings &);
   void read(class LSMKeywordReader, LSM::Keywords, const std::vector<const char *> &required);
@@ -51,10 +57,13 @@ class CreateLSMFault : public Command {
   int most_links_stored(const LSM::Packing &) const;
   std::string box_of(const LSM::LatticeSettings &) const;
   std::string box_of(const LSM::PackingSettings &) const;
-  void create_box(const std::string &limits, int bonds_per_atom);
+  void create_box(const std::string &limits, int link_types, int bonds_per_atom);
+  void add_particle(bigint id, int type, const double *x, double radius, double mass, int block);
+  bool is_mine(const double *x) const;
+  void finish_particles(bigint count, bigint links);
   void add_particles(const LSM::Packing &, const std::vector<double> &masses);
   void add_links(const LSM::Packing &, const std::vector<int> &);
-  void report_types(const LSM::Packing &);
+  void report_types(bigint links, const std::vector<bigint> &of_types);
   void report(const LSM::PackingSettings &, const LSM::Packing &);
   void report_masses(const LSM::Packing &, const std::vector<double> &);
 };

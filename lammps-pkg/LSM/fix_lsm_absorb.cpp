@@ -3,6 +3,7 @@
 #include "fix_lsm_absorb.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "lsm_scene.h"
@@ -16,29 +17,32 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
 {
   has_output(&work_absorbed);
 
-  if (narg != 7)
+  const bool per_mass = narg == 8 && strcmp(arg[6], "per/mass") == 0;
+  if (narg != 7 && !per_mass)
     error->all(FLERR,
-               "Fix lsm/absorb expects 'fix ID group lsm/absorb x|y ZP ZS LENGTH': direction "
-               "across the border, impedances of P- and S-waves, length of the border for "
-               "each particle");
-  if (strcmp(arg[3], "x") != 0 && strcmp(arg[3], "y") != 0)
-    error->all(FLERR, "Fix lsm/absorb direction across the border is '{}', but must be x or y",
-               arg[3]);
+               "Fix lsm/absorb expects 'fix ID group lsm/absorb x|y|z ZP ZS [per/mass] LENGTH': "
+               "direction across the border, impedances of P- and S-waves, length (in three "
+               "dimensions area) of the border for each particle, or for each unit of its mass");
+  const int dimension = domain->dimension;
+  const std::string axes = std::string("xyz").substr(0, dimension);
+  if (strlen(arg[3]) != 1 || axes.find(arg[3][0]) == std::string::npos)
+    error->all(FLERR, "Fix lsm/absorb direction across the border is '{}', but must be {}", arg[3],
+               dimension == 3 ? "x, y or z" : "x or y");
   static constexpr const char *names[] = {"impedance of P-waves", "impedance of S-waves", "length"};
   double value[3];
   for (int n = 0; n < 3; n++) {
-    value[n] = utils::numeric(FLERR, arg[4 + n], false, lmp);
+    value[n] = utils::numeric(FLERR, arg[n < 2 ? 4 + n : narg - 1], false, lmp);
     if (!(value[n] >= 0.0))
       error->all(FLERR, "Fix lsm/absorb {} is {}, but must be >= 0", names[n], value[n]);
   }
-  const int across = arg[3][0] == 'x' ? 0 : 1;
-  dashpot[across] = value[0] * value[2];
-  dashpot[1 - across] = value[1] * value[2];
+  const int across = arg[3][0] - 'x';
+  for (int c = 0; c < 3; c++) dashpot[c] = value[c == across ? 0 : 1] * value[2];
+  of_mass = per_mass;
 }
 
 void FixLSMAbsorb::init()
 {
-  LSMScene::require_plane(lmp, "Fix lsm/absorb");
+  LSMScene::require_verlet(lmp, "Fix lsm/absorb");
 }
 
 // Within a run, velocities are half a step older than the forces. The dashpot acts on the velocity
@@ -49,18 +53,24 @@ void FixLSMAbsorb::init()
 // force times the velocity of its time, so the loss is known exactly.
 void FixLSMAbsorb::post_force(int /*vflag*/)
 {
+  domain->dimension == 3 ? absorb<3>() : absorb<2>();
+}
+
+template <int DIM> void FixLSMAbsorb::absorb()
+{
   const double half = update->setupflag ? 0.0 : 0.5 * update->dt;
   double **v = atom->v;
   double **f = atom->f;
   double lost = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double kick =
-        half * force->ftm2v / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-    for (int c = 0; c < 2; c++) {
-      const double now = (v[i][c] + kick * f[i][c]) / (1.0 + kick * dashpot[c]);
-      f[i][c] -= dashpot[c] * now;
-      lost += dashpot[c] * now * now;
+    const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    const double kick = half * force->ftm2v / mass;
+    for (int c = 0; c < DIM; c++) {
+      const double drag = of_mass ? dashpot[c] * mass : dashpot[c];
+      const double now = (v[i][c] + kick * f[i][c]) / (1.0 + kick * drag);
+      f[i][c] -= drag * now;
+      lost += drag * now * now;
     }
   }
   work_absorbed += half * (rate + lost);

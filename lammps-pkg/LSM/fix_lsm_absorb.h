@@ -28,7 +28,9 @@ class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
   }
 
  private:
-  double dashpot[2];    // force over velocity of each particle, along x and y
+  double dashpot[3];    // force over velocity of each particle, along the axes
+  bool of_mass;         // the same over mass
+  template <int DIM> void absorb();
   double rate = 0.0;    // energy lost per time in the last step, this rank
 };
 
