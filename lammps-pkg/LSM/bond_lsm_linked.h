@@ -54,10 +54,10 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
  private:
   // for each bond type
 
-  std::vector<double> k;        // link stiffness
-  std::vector<double> ratio;    // breaking distance over rest length; 0 if the link cannot break
-  std::vector<double> factor;   // rest length over the sum of the radii
-  std::vector<double> delay;    // retardation time: viscosity over stiffness; 0 if there is none
+  std::vector<double> k;         // link stiffness
+  std::vector<double> ratio;     // breaking distance over rest length; 0 if the link cannot break
+  std::vector<double> factor;    // rest length over the sum of the radii
+  std::vector<double> delay;     // retardation time: viscosity over stiffness; 0 if there is none
   double maxrad = 0.0;
   const bool avx2;    // the processor has AVX2
   struct Segment {    // links that are treated the same way

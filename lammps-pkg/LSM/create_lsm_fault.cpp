@@ -133,8 +133,9 @@ void CreateLSMFault::check_box_and_dimension()
     return;
   }
   if (domain->dimension != 2)
-    error->all(FLERR, "Create_lsm_fault requires dimension 2, found dimension {}; in dimension 3 "
-                      "use create_lsm_fault lattice cubic",
+    error->all(FLERR,
+               "Create_lsm_fault requires dimension 2, found dimension {}; in dimension 3 "
+               "use create_lsm_fault lattice cubic",
                domain->dimension);
   if ((!lattice && !domain->xperiodic) || domain->yperiodic || !domain->zperiodic)
     error->all(FLERR,
@@ -339,8 +340,8 @@ void CreateLSMFault::create_box(const std::string &limits, int link_types, int b
   const std::string region = "create_lsm_fault_box";
   with_words(region + " block " + limits + " units box",
              [this](int narg, char **arg) { domain->add_region(narg, arg); });
-  with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region,
-                         link_types, bonds_per_atom),
+  with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region, link_types,
+                         bonds_per_atom),
              [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
   domain->delete_region(region);
 

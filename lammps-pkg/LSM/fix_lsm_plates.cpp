@@ -83,10 +83,10 @@ int FixLSMPlates::setmask()
 
 void FixLSMPlates::init()
 {
-  LSMScene::require_plane(lmp, "Fix lsm/plates");
-  if (!domain->xperiodic || domain->yperiodic)
-    error->all(FLERR,
-               "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
+  LSMScene::require_verlet(lmp, "Fix lsm/plates");
+  if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR, "Fix lsm/plates needs a box that is periodic in x and z and not in y "
+                      "(boundary p f p)");
 
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
     error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
@@ -189,11 +189,13 @@ void FixLSMPlates::setup(int /*vflag*/)
     for (int i : p.atoms) {
       atom->v[i][0] = p.side * velocity_at(elapsed);
       atom->v[i][1] = p.vy;
+      if (domain->dimension == 3) atom->v[i][2] = 0.0;
     }
 }
 
-// Shear: prescribed, the particles move with the velocity of the middle of the step. Across the
-// fault: Newton's law for the rigid plate under the applied stress, the force of the block and the
+// Shear, along x: prescribed, the particles move with the velocity of the middle of the step, and
+// in three dimensions not along z, where their velocity stays 0 after the setup. Across the fault:
+// Newton's law for the rigid plate under the applied stress, the force of the block and the
 // damping, velocity Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the
 // step.
 void FixLSMPlates::initial_integrate(int /*vflag*/)
@@ -213,10 +215,9 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
       p.vy += half_kick(p);
       duy = dt * p.vy;
       if (comm->me == 0)
-        work_mine +=
-            -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * domain->prd[0] * duy;
+        work_mine += -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * area() * duy;
     }
-    double now[2] = {p.side * velocity_at(elapsed + dt), p.vy};
+    double now[3] = {p.side * velocity_at(elapsed + dt), p.vy, 0.0};
     if (servo && ahead) now[1] = (p.vy + half_kick(p)) * decay_of(p);
     p.uy += duy;
     longest = MAX(longest, sqrt(dux * dux + duy * duy));
@@ -224,7 +225,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
     for (int i : p.atoms) {
       v[i][0] = p.side * vx;
       v[i][1] = p.vy;
-      if (ahead) std::copy_n(now, 2, ahead->now(i));
+      if (ahead) std::copy_n(now, domain->dimension, ahead->now(i));
       x[i][0] += p.side * dux;
       x[i][1] += duy;
     }
@@ -275,7 +276,7 @@ void FixLSMPlates::complete_step()
 // force of the block
 double FixLSMPlates::half_kick(const Plate &p) const
 {
-  return 0.5 * update->dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;
+  return 0.5 * update->dt * (-p.side * stress_at(elapsed) * area() + p.fy) / p.mass;
 }
 
 void FixLSMPlates::damp(Plate &p)
@@ -285,10 +286,16 @@ void FixLSMPlates::damp(Plate &p)
   if (comm->me == 0) work_mine -= before - p.kinetic();
 }
 
+// length, in three dimensions area, of a plate
+double FixLSMPlates::area() const
+{
+  return domain->prd[0] * (domain->dimension == 3 ? domain->prd[2] : 1.0);
+}
+
 // factor of the velocity across the fault in half a step
 double FixLSMPlates::decay_of(const Plate &p) const
 {
-  return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * update->dt);
+  return exp(-0.5 * (damping + impedance * area() / p.mass) * update->dt);
 }
 
 // scalar = work of the plates
@@ -307,9 +314,9 @@ double FixLSMPlates::compute_vector(int n)
   double mine[4] = {plate[LOWER].fx, plate[LOWER].fy, plate[UPPER].fx, plate[UPPER].fy}, sums[4];
   if (servo && comm->me != 0) mine[1] = mine[3] = 0.0;    // already the sum over all ranks
   MPI_Allreduce(mine, sums, 4, MPI_DOUBLE, MPI_SUM, world);
-  const double length = domain->prd[0];
-  const double shear_lower = sums[0] / length, shear_upper = -sums[2] / length;
-  const double normal_lower = -sums[1] / length, normal_upper = sums[3] / length;
+  const double size = area();
+  const double shear_lower = sums[0] / size, shear_upper = -sums[2] / size;
+  const double normal_lower = -sums[1] / size, normal_upper = sums[3] / size;
   const double shear = 0.5 * (shear_lower + shear_upper);
   const double normal = 0.5 * (normal_lower + normal_upper);
   const double values[] = {shear,        normal,      normal != 0.0 ? shear / normal : 0.0,

@@ -93,6 +93,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double half_kick(const Plate &p) const;
   void damp(Plate &p);
   double decay_of(const Plate &p) const;
+  double area() const;
   double velocity_at(double t) const;
   double stress_at(double t) const;
   void start_sum();

@@ -120,9 +120,8 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   double **x = atom->x;
   int found = -1;
   const double widest = ASIDE * (atom->radius[i] + widest_radius);
-  const auto first =
-      std::lower_bound(others.begin(), others.end(), x[i][0] - widest,
-                       [x](int j, double least) { return x[j][0] < least; });
+  const auto first = std::lower_bound(others.begin(), others.end(), x[i][0] - widest,
+                                      [x](int j, double least) { return x[j][0] < least; });
   for (auto at = first; at != others.end() && x[*at][0] <= x[i][0] + widest; ++at) {
     const int j = *at;
     const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1];
@@ -137,7 +136,7 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
           "Fix lsm/traction: particle {} faces particles {} and {}, but must face one, as in "
           "create_lsm_fault lattice or with mirror yes",
           atom->tag[i], atom->tag[found], atom->tag[j]);
-  found = j;
+    found = j;
   }
   if (found < 0)
     error->one(FLERR, "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
@@ -154,9 +153,9 @@ std::vector<double> FixLSMTraction::shares(int s) const
   std::vector<double> share(atom->nlocal, 0.0), mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
-    share[i] = per_mass > 0.0         ? per_mass * atom->rmass[i]
-        : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
-                                 : 2.0 * radius[i];
+    share[i] = per_mass > 0.0           ? per_mass * atom->rmass[i]
+               : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
+                                        : 2.0 * radius[i];
     mine.push_back(atom->x[i][0]);
   }
   if (!spaced) return share;
@@ -253,9 +252,9 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   begun = true;
 }
 
-// The forces that balance the tractions: the upper face is pulled along x and z, and each is pressed on
-// the other. Within a run velocities are those of the middle of the step; times the time step they
-// give the displacement.
+// The forces that balance the tractions: the upper face is pulled along x and z, and each is
+// pressed on the other. Within a run velocities are those of the middle of the step; times the time
+// step they give the displacement.
 void FixLSMTraction::post_force(int /*vflag*/)
 {
   find_store();

@@ -40,7 +40,7 @@ class FixLSMTraction :
 
  private:
   enum { NORMAL, SHEAR, DIP };
-  int side[2];                         // group bits of the lower and the upper face
+  int side[2];                                // group bits of the lower and the upper face
   std::string traction[3] = {"", "", "0"};    // normal, shear, shear along z: number or v_name
   int spaced = 0;                      // 1: particles are loaded by their spacing, not diameter
   double per_mass = 0.0;               // length or area that they represent, over mass; 0: not so

@@ -312,8 +312,7 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
 {
   const int from = domain->dimension == 3 ? 0 : Kept<2>::VECTOR;
   const int to = domain->dimension == 3 ? Kept<3>::STATUS : Kept<2>::STATUS;
-  for (int n = 0; n < size_history(); n++)
-    target[n] = n >= from && n < to ? -source[n] : source[n];
+  for (int n = 0; n < size_history(); n++) target[n] = n >= from && n < to ? -source[n] : source[n];
 }
 
 void PairLSMFriction::write_restart_settings(FILE *fp)

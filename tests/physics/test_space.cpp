@@ -12,7 +12,7 @@ using Space = Lmp;
 
 namespace {
 
-const std::vector<std::string> energies = {"KinEng",       "c_events[5]",  "c_events[7]",
+const std::vector<std::string> energies = {"KinEng",      "c_events[5]",  "c_events[7]",
                                            "c_events[8]", "c_events[11]", "c_events[13]"};
 
 /// 36 spheres slide over 36 that are fixed, along no axis, and are pressed onto them.
@@ -34,7 +34,8 @@ create_box        2 box
 )";
   for (int type : {1, 2})
     for (int n = 0; n < 36; ++n) {
-      const double x = 2.0 * (n % 6) + (type == 1 ? 0.1 : 0.8), z = 2.0 * (n / 6) + (type == 1 ? 0.1 : 0.5);
+      const double x = 2.0 * (n % 6) + (type == 1 ? 0.1 : 0.8),
+                   z = 2.0 * (n / 6) + (type == 1 ? 0.1 : 0.5);
       text += "create_atoms " + std::to_string(type) + " single " + std::to_string(x) +
               (type == 1 ? " -1 " : " 0.71 ") + std::to_string(z) + "\n";
     }
@@ -126,11 +127,156 @@ thermo_modify     norm no format float %.17g
 run               100
 )");
   ASSERT_TRUE(succeeded(local));
-  EXPECT_NEAR(local.last("c_sums[1]"), local.last("c_events[7]") + local.last("c_events[8]"), 1e-12);
+  EXPECT_NEAR(local.last("c_sums[1]"), local.last("c_events[7]") + local.last("c_events[8]"),
+              1e-12);
   EXPECT_GT(local.last("c_sums[2]"), 0.1);
   EXPECT_NEAR(local.last("c_sums[3]"), -0.7 * local.last("c_sums[2]"), 1e-12);
   for (int c : {1, 3}) {
     const std::string at = "[" + std::to_string(c) + "]";
     EXPECT_GT(local.last("c_most" + at) - local.last("c_least" + at), 1e-3);
   }
+}
+
+namespace {
+
+/// A cubic lattice of unit density, modulus and spacing: S-waves run at 1. Its fault is loaded
+/// along both axes by `load`, for all of it or a patch.
+std::string lattice(const std::string &boundary, const std::string &law, const std::string &load,
+                    const std::string &created =
+                        "create_lsm_fault lattice cubic length 12 width 16 depth 6 spacing 1 "
+                        "mass r3 8") {
+  return "variable newton index off\nunits lj\ndimension 3\nboundary " + boundary +
+         "\nnewton ${newton}\natom_style hybrid bond sphere\natom_modify map array\n"
+         "comm_modify mode single cutoff 1.8\nneighbor 0.1 bin\nspecial_bonds lj/coul 0 1 1\n" +
+         created + R"(
+bond_style      lsm/linked
+bond_coeff      1 1.0 kelvin-voigt 0.02
+bond_coeff      2 0.5 kelvin-voigt 0.02
+bond_coeff      3 0.25 kelvin-voigt 0.02
+bond_coeff      4 1.0 rest $(sqrt(2):%.17g) kelvin-voigt 0.02
+bond_coeff      5 0.5 rest $(sqrt(2):%.17g) kelvin-voigt 0.02
+pair_style      lsm/friction )" +
+         law + R"(
+group           lower type 3
+group           upper type 4
+group           caps type 5 6
+)" + load +
+         R"(
+fix             caps caps lsm/absorb y $(sqrt(3)) 1.0 per/mass 2
+fix             move all lsm/nve
+timestep        0.1
+compute         events all lsm/events ledger yes
+variable        strike equal xcm(upper,x)-xcm(lower,x)
+variable        dip equal xcm(upper,z)-xcm(lower,z)
+thermo_style    custom step ke c_events[5] c_events[7] c_events[8] c_events[11] c_events[13] c_events[15] c_events[16] v_strike v_dip
+thermo_modify   norm no format float %.17g
+thermo          50
+)";
+}
+
+/// Part of the fault slips, and the waves reach free and absorbing borders.
+std::string patch(const std::string &created = "") {
+  const std::string law =
+      "slip-weakening\npair_coeff * * off\npair_coeff 3 4 1.0 1.5 mu 0.5 mu_static 0.7 dc 1e-4";
+  const std::string load =
+      "variable shear atom 5.5e-4+3e-4*(abs(x)<3)*(abs(z+3)<2)\n"
+      "fix load all lsm/traction lower upper 1e-3 v_shear dip 1e-4 per/mass 2";
+  return created.empty() ? lattice("f f f", law, load) : lattice("f f f", law, load, created);
+}
+
+}  // namespace
+
+// A fault under the same stress everywhere slips along it at twice the stress drop over the
+// impedance of S-waves, whatever the direction. (Slip is small compared with an overlap here.)
+TEST_F(Space, AUniformStressDropGivesTheSlipRateOfPlaneWaves) {
+  for (const auto &[strike, dip] : {std::pair<double, double>{6e-6, 4.5e-6}, {0.0, -7.5e-6}}) {
+    const Result r = run_text(lattice("p f p", "\npair_coeff * * off\npair_coeff 3 4 1.0 1.5 0.5",
+                                      "fix load all lsm/traction lower upper 1e-5 " + text(strike) +
+                                          " dip " + text(dip)) +
+                                  "run 200\n",
+                              {}, 2);
+    ASSERT_TRUE(succeeded(r));
+    const double rate = 2.0 * (7.5e-6 - 5e-6), share = 1.0 / 7.5e-6;
+    const auto &half = r.thermo.at(2), &end = r.thermo.back();
+    const double time = 10.0;
+    EXPECT_NEAR((end.at("v_strike") - half.at("v_strike")) / time, rate * strike * share,
+                0.005 * rate);
+    EXPECT_NEAR((end.at("v_dip") - half.at("v_dip")) / time, rate * dip * share, 0.005 * rate);
+    EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-3 * r.last("c_events[11]"));
+    EXPECT_GT(r.last("c_events[16]"), 0.01 * r.last("c_events[11]")) << "through the borders";
+  }
+}
+
+// Until waves come back from the fault, a driven plate feels the impedance of S-waves, and one
+// under stress moves against that of P-waves.
+TEST_F(Space, PlatesRadiatePlaneWaves) {
+  const Result r = run_text(
+      lattice("p f p", "\npair_coeff * * off\npair_coeff 3 4 1.0 1.0 0.6",
+              "group bottom type 5\ngroup top type 6\ngroup rest subtract all bottom top\n"
+              "fix plates all lsm/plates bottom top velocity 1e-4 ramp 4 stress 2e-4 stressramp 3\n"
+              "thermo_style custom step f_plates[1] f_plates[9]") +
+          "unfix move\nunfix caps\nfix move rest lsm/nve\n"
+          "thermo_style custom step f_plates[1] f_plates[9] c_events[13]\n"
+          "thermo_modify norm no format float %.17g\nthermo 10\nrun 80\n",
+      {}, 2);
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_NEAR(r.last("f_plates[1]"), 1e-4, 0.01 * 1e-4);
+  const double approach = r.thermo.at(8).at("f_plates[9]") - r.thermo.at(5).at("f_plates[9]");
+  EXPECT_NEAR(approach, 2.0 * 2e-4 / std::sqrt(3.0) * 3.0, 0.01 * approach);
+}
+
+TEST_F(Space, AFaultOnRanksAndFromARestartFile) {
+  const std::vector<std::string> columns = {"KinEng",       "c_events[7]",  "c_events[8]",
+                                            "c_events[11]", "c_events[15]", "c_events[16]",
+                                            "v_strike",     "v_dip"};
+  const std::string half = patch() + "run 100\nwrite_restart half.restart\nrun 100\n";
+  const Result one = run_text(half);
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_GT(one.last("c_events[11]"), 1e-5);
+  EXPECT_GT(one.last("v_strike"), 1e-4);
+  EXPECT_GT(one.last("v_dip"), 1e-5);
+  EXPECT_LT(std::fabs(one.last("c_events[13]")), 1e-3 * one.last("c_events[11]"));
+  for (const auto &[newton, ranks] :
+       {std::pair<const char *, int>{"off", 1}, {"off", 2}, {"on", 1}, {"on", 4}}) {
+    SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+    const Result whole = run_text(half, {{"newton", newton}}, ranks);
+    const Result rest =
+        run_text(patch("read_restart half.restart") + "run 100\n", {{"newton", newton}}, ranks);
+    ASSERT_TRUE(succeeded(whole));
+    ASSERT_TRUE(succeeded(rest));
+    for (const auto &column : columns) {
+      EXPECT_NEAR(whole.last(column), one.last(column), 1e-9 * std::fabs(one.last(column)));
+      EXPECT_NEAR(rest.last(column), whole.last(column), 1e-13) << column;
+    }
+    for (const char *column : {"KinEng", "c_events[8]", "v_strike", "v_dip"})
+      EXPECT_EQ(rest.last(column), whole.last(column)) << column;
+  }
+}
+
+TEST_F(Space, WhatIsWrongIsNamed) {
+  const auto refused = [](std::string script, const std::string &from, const std::string &to,
+                          const std::string &what) {
+    ASSERT_NE(script.find(from), std::string::npos) << from;
+    script.replace(script.find(from), from.size(), to);
+    EXPECT_TRUE(failed_with(run_text(script + "run 1\n"), {what}));
+  };
+  const std::string create = "lattice cubic length 12 width 16 depth 6";
+  refused(patch(), create, "lattice cubic length 12.3 width 16 depth 6",
+          "length = 12.300000, expected a multiple of the spacing");
+  refused(patch(), create, "lattice cubic length 12 width 16", "depth");
+  refused(patch(), "boundary f f f", "boundary f p f", "not periodic in y");
+  refused(patch(), "dimension 3", "dimension 2", "requires dimension 3, found dimension 2");
+  refused(patch(), create, "length 120 width 30 seed 1 ",
+          "requires dimension 2, found dimension 3");
+  refused(patch(), "per/mass 2\nfix             move", "2 2\nfix             move",
+          "[per/mass] LENGTH");
+  refused(patch(), "absorb y", "absorb xz", "must be x, y or z");
+  refused(patch(), "dip 1e-4", "share spacing", "share needs dimension 2, found dimension 3");
+  refused(patch(), "timestep        0.1", "timestep        0.7", "above the stability limit");
+  refused(patch(), "fix             caps", "fix leap all lsm/leap plates\nfix             caps",
+          "lsm/leap");
+  refused(patch(), "rest $(sqrt(2):%.17g)", "rest 0", "rest");
+  refused(patch(), "fix             caps",
+          "fix plates all lsm/plates lower upper position\nfix             caps",
+          "Fix lsm/plates needs a box that is periodic in x and z");
 }

@@ -14,10 +14,10 @@
 namespace {
 
 using namespace LAMMPS_NS;
+using LSM::friction_contact::Vector;
 using LSMFriction::Loop;
 using LSMFriction::Scene;
 using LSMFriction::Step;
-using LSM::friction_contact::Vector;
 
 constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 
@@ -327,8 +327,7 @@ struct Contact {
     const LSM::friction_contact::Step step{false, 0.0, dt, true};
     const bool moved = LSM::friction_contact::follow<Law, 3>(step, c, d.data(), r, r + 1.0, touch,
                                                              h, contact, dxi);
-    const auto done =
-        LSM::friction_contact::next<Law, 3>(moved, c, contact, d.data(), dxi, h);
+    const auto done = LSM::friction_contact::next<Law, 3>(moved, c, contact, d.data(), dxi, h);
     LSM::friction_contact::keep<Law, 3>(done, d.data(), h);
     lost += done.dissipated;
     slip += done.slip;
@@ -442,9 +441,9 @@ TEST(FrictionInSpace, APairThatTurnsIsDisplacedByTheArc) {
     }
     const double chords = 2.0 * steps * r * std::sin(0.25 * pi / steps);
     EXPECT_NEAR(std::sqrt(LSM::friction_contact::square_of<3>(contact.h)), chords, 1e-12);
-    EXPECT_NEAR(LSM::friction_contact::dot({contact.h[0], contact.h[1], contact.h[2]},
-                                           contact.axes[2]),
-                -chords, 1e-12);
+    EXPECT_NEAR(
+        LSM::friction_contact::dot({contact.h[0], contact.h[1], contact.h[2]}, contact.axes[2]),
+        -chords, 1e-12);
     EXPECT_NEAR(xi[0], 0.0, 1e-12);
     EXPECT_NEAR(xi[1], 0.0, 1e-12);
   }

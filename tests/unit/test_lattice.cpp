@@ -196,7 +196,8 @@ TEST(CubicLattice, WrongSizesAreNamed) {
       EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
     }
   };
-  refused([](auto &s) { s.length = 10.0; }, "length = 10.000000, expected a multiple of the spacing");
+  refused([](auto &s) { s.length = 10.0; },
+          "length = 10.000000, expected a multiple of the spacing");
   refused([](auto &s) { s.width = 4.5; }, "half width = 2.250000, expected 3 to 1e6 times");
   refused([](auto &s) { s.depth = NAN; }, "depth = nan");
   refused([](auto &s) { s.spacing = 0.0; }, "spacing = 0");

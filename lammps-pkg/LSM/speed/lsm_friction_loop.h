@@ -31,8 +31,8 @@ namespace LSMFriction {
     /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
     /// this rank's share of its power. Called only if the scene is viscous.
     virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
-    /// Tallies LAMMPS' own energy and virial, from the force on the first particle and the vector to
-    /// it from the second. Called only by a recorder that tallies.
+    /// Tallies LAMMPS' own energy and virial, from the force on the first particle and the vector
+    /// to it from the second. Called only by a recorder that tallies.
     virtual void tally(const LSMContacts::Pair &, double energy, const Vector &force,
                        const Vector &del) = 0;
   };
@@ -55,11 +55,11 @@ namespace LSMFriction {
     bool viscous;                                ///< contacts have dashpots
   };
 
-  /// The loop over the pairs that touch, compiled for each law, recorder and number of dimensions. The setup of a run
-  /// evaluates the forces of a step that was done: the state of the contacts stays, so that a run
-  /// in pieces equals one run, and a contact that slides goes on sliding. Only where a command
-  /// moved particles since, by more than they are rounded when they cross a border of the box,
-  /// their contacts follow.
+  /// The loop over the pairs that touch, compiled for each law, recorder and number of dimensions.
+  /// The setup of a run evaluates the forces of a step that was done: the state of the contacts
+  /// stays, so that a run in pieces equals one run, and a contact that slides goes on sliding. Only
+  /// where a command moved particles since, by more than they are rounded when they cross a border
+  /// of the box, their contacts follow.
   template <class Law, class Recorder, int DIM> class Loop {
    public:
     explicit Loop(const Scene &of) :

@@ -257,7 +257,7 @@ void LSMNearPairs::write_states()
       const double *const d = vector(place);
       const double square = dim == 3 ? square_of<3>(d) : square_of<2>(d);
       const bool is_near = square <= state_reach * state_reach * pair.r0 * pair.r0 &&
-          !(screened && is_left_out(place));
+                           !(screened && is_left_out(place));
       dim == 3 ? keep_near<3>(is_near, d, touch, h) : keep_near<2>(is_near, d, touch, h);
     }
     std::copy_n(h, state_size, store->values_of(pair.i, pair.jj));

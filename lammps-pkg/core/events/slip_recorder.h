@@ -14,8 +14,8 @@
 
 namespace LSM {
 
-/// A contact between the two sides of a fault along x, and in three dimensions along z, in one force
-/// evaluation.
+/// A contact between the two sides of a fault along x, and in three dimensions along z, in one
+/// force evaluation.
 struct FaultContact {
   double x;              ///< middle between the two centres
   double work;           ///< lost to friction

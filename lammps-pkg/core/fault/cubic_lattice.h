@@ -25,10 +25,10 @@ class CubicLattice {
     int x, y, z;
   };
   struct Sizes {
-    double length = 0.0;   ///< along the fault: x
-    double width = 0.0;    ///< of both blocks together: y
-    double depth = 0.0;    ///< z, from -depth to 0
-    double spacing = 0.0;  ///< of the nodes, and their diameter
+    double length = 0.0;                  ///< along the fault: x
+    double width = 0.0;                   ///< of both blocks together: y
+    double depth = 0.0;                   ///< z, from -depth to 0
+    double spacing = 0.0;                 ///< of the nodes, and their diameter
     bool ring_x = false, ring_z = false;  ///< whether the fault is periodic
   };
   /// Types of links: along edges, by their share of the stiffness, and along diagonals.
@@ -78,8 +78,8 @@ class CubicLattice {
   /// as many behind it), otherwise all.
   template <class Act>
   void for_links(const Node &n, bool forward, const Act &act) const {
-    static constexpr int steps[][3] = {{1, 0, 0},  {0, 1, 0}, {0, 0, 1},  {1, 1, 0}, {1, -1, 0},
-                                       {1, 0, 1},  {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+    static constexpr int steps[][3] = {{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0}, {1, -1, 0},
+                                       {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
     for (const auto &step : steps)
       for (const int sign : {1, -1}) {
         if (forward && sign < 0) continue;
