@@ -238,8 +238,7 @@ TEST_F(Space, AFaultOnRanksAndFromARestartFile) {
   EXPECT_GT(one.last("v_strike"), 1e-4);
   EXPECT_GT(one.last("v_dip"), 1e-5);
   EXPECT_LT(std::fabs(one.last("c_events[13]")), 1e-3 * one.last("c_events[11]"));
-  for (const auto &[newton, ranks] :
-       {std::pair<const char *, int>{"off", 2}, {"on", 4}}) {
+  for (const auto &[newton, ranks] : {std::pair<const char *, int>{"off", 2}, {"on", 4}}) {
     SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
     const Result whole = run_text(half, {{"newton", newton}}, ranks);
     const Result rest =
