@@ -37,15 +37,20 @@ struct MadeUpRun {
   EventSettings settings;
   LSM::SceneInfo scene{{{"program", "made up"}, {"links", "7"}}, 2, dt};
   LSM::StepClock clock{100.0, 0, dt};
+  bool plane;
   FaultGrid grid;
   std::vector<double> sums;  // of the incomplete interval
   std::unique_ptr<EventStream> stream;
 
-  explicit MadeUpRun(const EventSettings &s) : settings(s) {
+  explicit MadeUpRun(const EventSettings &s, bool on_plane = false) : settings(s), plane(on_plane) {
     stream = std::make_unique<EventStream>(settings);
-    grid = settings.grid(0.0, length, 0, 100.0, dt);
+    grid = grid_at(0);
     if (settings.records_slip()) stream->set_grid(grid);
-    sums.resize(LSM::fault_fields * static_cast<std::size_t>(grid.bins));
+    sums.resize(grid.fields() * static_cast<std::size_t>(grid.cells()));
+  }
+  FaultGrid grid_at(std::int64_t step) const {
+    const FaultGrid strike = settings.grid(0.0, length, step, clock.at(step), dt);
+    return plane ? settings.plane(strike, -3.0, 3.0) : strike;
   }
 
   void begin() {
@@ -55,7 +60,7 @@ struct MadeUpRun {
   void restart(std::int64_t step, const std::vector<double> &state) {
     SavedStream saved;
     ASSERT_TRUE(saved.read(state, 0));
-    grid = settings.grid(0.0, length, step, clock.at(step), dt);
+    grid = grid_at(step);
     if (settings.records_slip()) {
       grid = saved.continued(grid);
       stream->set_grid(grid);
@@ -66,9 +71,15 @@ struct MadeUpRun {
   }
 
   void add_contacts(std::int64_t step) {
-    for (int b = 0; b < grid.bins; ++b) {
-      double *const s = &sums[LSM::fault_fields * static_cast<std::size_t>(b)];
+    for (int cell = 0; cell < grid.cells(); ++cell) {
+      double *const s = &sums[grid.fields() * static_cast<std::size_t>(cell)];
+      const int b = cell / grid.rows;
       const bool slips = slides(step) && b >= 3 && b < 6 + step / 40;
+      if (plane) {
+        s[LSM::UPPER_DIP] += slips ? -0.01 * (cell + 1) : 0.0;
+        s[LSM::LOWER_STEPS] += 1.0;
+        s[LSM::FORCE_DIP] -= 0.1;
+      }
       s[LSM::UPPER] += slips ? 0.02 * (b + 1) : 1e-5;
       s[LSM::UPPER_STEPS] += 1.0;
       s[LSM::WORK] += slips ? 0.001 * (b + 1) : 0.0;
@@ -275,14 +286,16 @@ TEST_F(EventStreamFiles, TheLastDropIsWrittenAtTheEnd) {
 }
 
 TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
-  for (const std::string kind : {"plain", "located", "ruptures"}) {
+  for (const std::string kind : {"plain", "located", "ruptures", "plane"}) {
+    const bool plane = kind == "plane";
     const auto settings = [&](const std::string &name) {
-      return kind == "ruptures" ? rupture_settings(name) : pe_settings(name, kind == "located");
+      return kind == "ruptures" || plane ? rupture_settings(name)
+                                         : pe_settings(name, kind == "located");
     };
     // The stops are: during loading; within an event; within an interval and a pause; at the end of
     // an event, which is known one step later.
     EventSettings any = settings(kind);
-    MadeUpRun ends(any);
+    MadeUpRun ends(any, plane);
     ends.begin();
     ends.run(0, 200, 20);
     const std::int64_t end = events_of(any).at(2).step_end;
@@ -292,12 +305,12 @@ TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
       const std::string at = kind + std::to_string(stop);
       SCOPED_TRACE(at);
       EventSettings whole = settings(at);
-      MadeUpRun uninterrupted(whole);
+      MadeUpRun uninterrupted(whole, plane);
       uninterrupted.begin();
       uninterrupted.run(0, 400, 20);
 
       EventSettings part = settings(at + "part");
-      MadeUpRun first(part);
+      MadeUpRun first(part, plane);
       first.begin();
       first.run(0, stop, 20);
       const std::vector<double> state = first.stream->state(first.sums);
@@ -305,12 +318,16 @@ TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
       first.stream.reset();
 
       part.resume = true;
-      MadeUpRun second(part);
+      MadeUpRun second(part, plane);
       ASSERT_NO_FATAL_FAILURE(second.restart(stop, state));
       second.run(stop + 1, 400, 20);
       expect_same_files(whole, part);
       ASSERT_GE(events_of(whole).size(), 5u);
       EXPECT_EQ(second.stream->state(second.sums), uninterrupted.stream->state(uninterrupted.sums));
+      if (plane) {
+        ASSERT_GE(ruptures_of(whole).size(), 5u);
+        EXPECT_EQ(ruptures_of(whole)[0].rupture_width, 3.0);
+      }
     }
   }
 }
@@ -464,7 +481,7 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   settings.parameters = {{"seed", "3"}, {"links", "many"}};
   settings.no_series = true;
   const LSM::SceneInfo scene{{{"program", "p"}, {"links", "7"}, {"dt", "0.5"}}, 2, 0.5};
-  const auto pe = LSM::drops_header(settings, scene, 0.0);
+  const auto pe = LSM::drops_header(settings, scene, {});
   EXPECT_EQ(*pe.find("links"), "many");  // the user's lines stay, after the others
   EXPECT_EQ(pe.parameters.back().first, "links");
   EXPECT_EQ(*pe.find("ranks"), "2");
@@ -481,18 +498,31 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   settings.ruptures_file = "r.csv";
   settings.driving = 0.0005;
   settings.modulus = 0.4;
-  const auto located = LSM::drops_header(settings, scene, 1.25);
+  FaultGrid grid;
+  grid.width = 1.25;
+  const auto located = LSM::drops_header(settings, scene, grid);
   EXPECT_EQ(*located.find("slip_bin"), "1.25");
   EXPECT_EQ(*located.find("modulus"), "0.40000000000000002");
   EXPECT_TRUE(located.slip_moment && located.peak_slip);
   EXPECT_FALSE(located.stress_drop);
-  const auto ruptures = LSM::ruptures_header(settings, scene, 1.25);
+  const auto ruptures = LSM::ruptures_header(settings, scene, grid);
   EXPECT_EQ(*ruptures.find("slip_bin"), "1.25");
   EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");
   EXPECT_EQ(ruptures.find("picker"), nullptr);
   EXPECT_EQ(ruptures.find("series"), nullptr);
   EXPECT_TRUE(ruptures.stress_drop && ruptures.peak_slip);
+  EXPECT_FALSE(ruptures.plane);
+  EXPECT_EQ(ruptures.find("slip_bin_dip"), nullptr);
   EXPECT_EQ(LSM::series_header(settings, scene, {100.0, 50, 0.5}).parameters, series.parameters);
+
+  // On a plane drops of PE are not located.
+  grid.plane = true;
+  const auto drops = LSM::drops_header(settings, scene, grid);
+  EXPECT_EQ(drops.find("slip_bin"), nullptr);
+  EXPECT_FALSE(drops.slip_moment);
+  const auto patches = LSM::ruptures_header(settings, scene, grid);
+  EXPECT_EQ(*patches.find("slip_bin_dip"), "1");
+  EXPECT_TRUE(patches.plane && patches.slip_moment);
 }
 
 TEST(EventSettings, BinsFillTheFault) {

@@ -79,8 +79,9 @@ TEST(HeaderKeys, HaveWhatAFaultWrites) {
     scene.parameters.emplace_back(key, "1");
   LSM::FaultGrid grid;
   grid.ring = false;
-  expect_known(LSM::drops_header(settings, scene, 1.0).header());
-  expect_known(LSM::ruptures_header(settings, scene, 1.0).header());
+  grid.plane = true;
+  expect_known(LSM::drops_header(settings, scene, grid).header());
+  expect_known(LSM::ruptures_header(settings, scene, grid).header());
   expect_known(LSM::series_header(settings, scene, {0.0, 0, 1.0}).header());
   expect_known(LSM::history_header(settings, scene, grid).header());
 }

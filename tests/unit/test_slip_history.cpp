@@ -223,7 +223,7 @@ TEST_F(SlipHistory, BadFilesAreRefusedWithARecordAndAReason) {
   };
   expect("", "slip.bin: not a slip history");
   expect("event_id,t_start,t_end\n", "not a slip history");
-  expect("lsm-slip-hist-2\n" + good.substr(16), "another version, expected version 1");
+  expect("lsm-slip-hist-3\n" + good.substr(16), "another version, expected version 1 to 2");
   expect(good.substr(0, 30), "file ends within the binary header");
   expect(good.substr(0, good.size() - 7), "truncated record 6 at the end, expected 60 bytes");
   EXPECT_EQ(read(file(), true).size(), records - 1);

@@ -12,7 +12,7 @@ namespace LSM {
 
 DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
     : grid_(grid),
-      centroid_(grid),
+      centroid_(grid.strike()),
       modulus_(modulus),
       fraction_(fraction),
       end_(grid.step0),

@@ -50,42 +50,44 @@ std::vector<Output> files_of(const EventSettings &settings) {
           {"history", settings.history_file}};
 }
 
-CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene, double slip_bin) {
+CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene,
+                           const FaultGrid &grid) {
   CatalogueInfo info;
   info.model = "lsm";
   Parameters events = picker_of(settings);
-  if (settings.records_slip()) {
-    events.emplace_back("slip_bin", number(slip_bin));
+  const bool located = settings.records_slip() && !grid.plane;
+  if (located) {
+    events.emplace_back("slip_bin", number(grid.width));
     events.emplace_back("rupture_fraction", number(settings.fraction));
     events.emplace_back("interval", std::to_string(settings.interval));
     events.emplace_back("modulus", number(settings.modulus));
   }
-  info.slip_moment = info.x_centroid = info.rupture_length = info.peak_slip =
-      settings.records_slip();
+  info.slip_moment = info.x_centroid = info.rupture_length = info.peak_slip = located;
   info.parameters = parameters_of(settings, scene, events, settings.no_series ? "series" : "");
   return info;
 }
 
 CatalogueInfo ruptures_header(const EventSettings &settings, const SceneInfo &scene,
-                              double slip_bin) {
+                              const FaultGrid &grid) {
   CatalogueInfo info;
   info.model = "lsm";
-  info.parameters = parameters_of(settings, scene,
-                                  {{"min_size", number(settings.ruptures.min_size)},
-                                   {"tangential_energy", settings.tangential ? "yes" : "no"},
-                                   {"events", "ruptures"},
-                                   {"driving", number(settings.driving)},
-                                   {"slipping", number(settings.slipping)},
-                                   {"slip_velocity", number(settings.slipping * settings.driving)},
-                                   {"slip_bin", number(slip_bin)},
-                                   {"interval", std::to_string(settings.interval)},
-                                   {"gap", std::to_string(settings.gap)},
-                                   {"pause", number(settings.pause)},
-                                   {"modulus", number(settings.modulus)}},
-                                  settings.no_history ? "history" : "");
+  Parameters events = {{"min_size", number(settings.ruptures.min_size)},
+                       {"tangential_energy", settings.tangential ? "yes" : "no"},
+                       {"events", "ruptures"},
+                       {"driving", number(settings.driving)},
+                       {"slipping", number(settings.slipping)},
+                       {"slip_velocity", number(settings.slipping * settings.driving)},
+                       {"slip_bin", number(grid.width)},
+                       {"interval", std::to_string(settings.interval)},
+                       {"gap", std::to_string(settings.gap)},
+                       {"pause", number(settings.pause)},
+                       {"modulus", number(settings.modulus)}};
+  if (grid.plane) events.emplace_back("slip_bin_dip", number(grid.height));
+  info.parameters = parameters_of(settings, scene, events, settings.no_history ? "history" : "");
   info.slip_moment = info.x_centroid = info.rupture_length = true;
   info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
   info.peak_slip = true;
+  info.plane = grid.plane;
   return info;
 }
 
@@ -110,9 +112,10 @@ SlipHistoryInfo history_header(const EventSettings &settings, const SceneInfo &s
   info.driving = settings.driving;
   info.quiet = settings.quiet;
   // The width of the bins has its own key, and the history is no catalogue.
-  add_others(info, text_io::without(ruptures_header(settings, scene, grid.width).parameters,
-                                    {"slip_bin", "events"}));
+  add_others(info, text_io::without(ruptures_header(settings, scene, grid).parameters,
+                                    {"slip_bin", "slip_bin_dip", "events"}));
   if (!grid.ring) info.parameters.emplace_back("ends", "open");
+  if (grid.plane && !grid.ring_dip) info.parameters.emplace_back("ends_dip", "open");
   return info;
 }
 

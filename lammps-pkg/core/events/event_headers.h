@@ -40,11 +40,12 @@ struct StepClock {
 std::vector<Output> files_of(const EventSettings &settings);
 
 /// Headers of the two catalogues.
-/// \param slip_bin width of the bins of the grid, if slip is recorded
-CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene, double slip_bin);
+/// \param grid if slip is recorded
+CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene,
+                           const FaultGrid &grid);
 /// The parameter `events` states that ruptures may overlap.
 CatalogueInfo ruptures_header(const EventSettings &settings, const SceneInfo &scene,
-                              double slip_bin);
+                              const FaultGrid &grid);
 
 /// Header of the PE series, whether slip is recorded or not. It has the numbers that times are
 /// computed from, so that readers obtain the times of the catalogue.

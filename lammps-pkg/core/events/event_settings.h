@@ -60,7 +60,7 @@ struct EventSettings {
 
   /// Whether ruptures are looked for; the slip history also has to know what slips.
   bool finds_ruptures() const { return !ruptures_file.empty() || !history_file.empty(); }
-  /// Whether the slip of the faces is recorded. If so, drops of PE are located.
+  /// Whether the slip of the faces is recorded. If so, drops of PE are located on a line.
   bool records_slip() const { return location || finds_ruptures(); }
   /// The keyword that asks for slip, for messages.
   const char *asked_by() const {
@@ -78,6 +78,14 @@ struct EventSettings {
     g.time0 = time;
     g.dt = dt;
     return g;
+  }
+  /// Divides a plane: the grid along strike, and bins along dip.
+  FaultGrid plane(FaultGrid strike, double z0, double length) const {
+    strike.plane = true;
+    strike.rows = std::max(1, static_cast<int>(length / bin_width * (1.0 + 1e-12)));
+    strike.z0 = z0;
+    strike.height = length / strike.rows;
+    return strike;
   }
   /// What slips and what is connected.
   RuptureSettings rupture_settings(double dt) const {

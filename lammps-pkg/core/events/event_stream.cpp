@@ -22,7 +22,8 @@ bool SavedStream::read(const std::vector<double> &from, std::size_t at) {
 
 bool SavedStream::continues_with(const FaultGrid &other, bool finds_ruptures) const {
   return has_slip() && finder.empty() != finds_ruptures && grid.dt == other.dt &&
-         grid.interval == other.interval && grid.bins == other.bins;
+         grid.interval == other.interval && grid.bins == other.bins &&
+         open_sums.size() == other.fields() * static_cast<std::size_t>(other.cells());
 }
 
 FaultGrid SavedStream::continued(FaultGrid other) const {
@@ -39,7 +40,7 @@ EventStream::EventStream(const EventSettings &settings)
 
 void EventStream::set_grid(const FaultGrid &grid) {
   grid_ = grid;
-  locator_.emplace(grid, settings_.modulus, settings_.fraction);
+  if (!grid.plane) locator_.emplace(grid, settings_.modulus, settings_.fraction);
   if (settings_.finds_ruptures()) finder_.emplace(grid, settings_.rupture_settings(grid.dt));
   slip_continues_ = false;
 }
@@ -48,8 +49,8 @@ void EventStream::set_state(const SavedStream &saved) {
   picker_.set_state(saved.picker);
   drops_.set_counts(saved.drops);
   ruptures_.set_counts(saved.ruptures);
-  if (!locator_ || !saved.continues_with(grid_, finder_.has_value())) return;
-  locator_->set_state(saved.locator);
+  if (!records_slip() || !saved.continues_with(grid_, finder_.has_value())) return;
+  if (locator_) locator_->set_state(saved.locator);
   if (finder_) finder_->set_state(saved.finder);
   saved_history_ = saved.history;
   slip_continues_ = true;
@@ -92,9 +93,9 @@ void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_o
     const std::int64_t step = block.first + n;
     const double time = time_of(step), pe = block.total(n);
     add_sample(step, time, pe);
-    if (!locator_ || !grid_.ends_interval(step)) continue;
+    if (!records_slip() || !grid_.ends_interval(step)) continue;
     add_interval(step, time, pe, sums);
-    sums += fault_fields * static_cast<std::size_t>(grid_.bins);
+    sums += grid_.fields() * static_cast<std::size_t>(grid_.cells());
   }
 }
 
@@ -131,7 +132,8 @@ void EventStream::check_files(bool from_restart) const {
       throw EventStreamError(who + "resume yes: file " + file +
                              " exists, but the restart file holds no picker state of compute " +
                              name + "; read a restart written while it was active");
-    if (resumes(file) && locator_ && !slip_continues_ && file != settings_.series_file)
+    const bool of_slip = key == "catalogue" ? locator_.has_value() : records_slip();
+    if (resumes(file) && of_slip && !slip_continues_ && file != settings_.series_file)
       throw EventStreamError(who + "resume yes: file " + file +
                              " exists, but the restart file holds no slip of compute " + name +
                              " with these bins and intervals; give another name, or replace it "
@@ -150,8 +152,8 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   check_files(from_restart);
   const std::string &catalogue = settings_.catalogue_file, &series = settings_.series_file,
                     &ruptures = settings_.ruptures_file, &history = settings_.history_file;
-  const CatalogueInfo drops_info = drops_header(settings_, scene, grid_.width),
-                      ruptures_info = ruptures_header(settings_, scene, grid_.width);
+  const CatalogueInfo drops_info = drops_header(settings_, scene, grid_),
+                      ruptures_info = ruptures_header(settings_, scene, grid_);
   const PeSeriesInfo series_info = series_header(settings_, scene, clock);
   history_info_ = history_header(settings_, scene, grid_);
   // A drop that ended at this step is known one step later, and written with its interval.
@@ -212,7 +214,8 @@ void EventStream::add_interval(std::int64_t step, double time, double pe, const 
   const FaultRow row = fault_row(grid_, sums, grid_.interval);
   std::optional<std::int64_t> begun;
   if (picker_.in_event()) begun = picker_.state().step_start;
-  locator_->add_interval(step, row, begun, [this](const Event &drop) { write_drop(drop); });
+  if (locator_)
+    locator_->add_interval(step, row, begun, [this](const Event &drop) { write_drop(drop); });
   if (!finder_) return;
   finder_->add(time, pe, row, [this](const Event &rupture) { write_rupture(rupture); });
   if (history_.is_open()) history_.add(step, pe, row, finder_->active());

@@ -2,7 +2,8 @@
 /// \file events/event_stream.h
 /// Turns samples into files, on rank 0. Each PE sample goes to the series and the picker, whose
 /// drops pass the filter to the catalogue. If slip is recorded, sums over the faces and contacts of
-/// the fault go to the locator of drops, to the finder of ruptures and to the slip history.
+/// the fault go to the locator of drops (of a line, not of a plane), to the finder of ruptures and
+/// to the slip history.
 #ifndef LSM_EVENT_STREAM_H
 #define LSM_EVENT_STREAM_H
 
@@ -35,7 +36,7 @@ struct SavedStream {
   FilterCounts drops, ruptures;
   FaultGrid grid;                 ///< only step0, interval, bins, time0 and dt
   std::vector<double> open_sums;  ///< of the interval that was not complete
-  std::vector<double> locator;    ///< DropLocator::state(), empty if slip was not recorded
+  std::vector<double> locator;    ///< DropLocator::state(), empty if drops were not located
   std::vector<double> finder;     ///< RuptureFinder::state(), empty if there was none
   std::vector<double> history;    ///< SlipHistoryWriter::state(), empty if there was none
 
@@ -55,7 +56,7 @@ struct SavedStream {
   bool read(const std::vector<double> &from, std::size_t at);
 
   /// Whether slip was recorded.
-  bool has_slip() const { return !locator.empty(); }
+  bool has_slip() const { return !locator.empty() || !finder.empty(); }
   /// Whether slip continues with this grid, as it is when recording begins at the step of the
   /// restart file. If not, the slip of an open drop so far and open ruptures are lost, but events
   /// and their numbers continue.
@@ -118,6 +119,7 @@ class EventStream {
 
  private:
   bool resumes(const std::string &file) const;
+  bool records_slip() const { return locator_ || finder_; }
 
   void check_files(bool from_restart) const;
 
@@ -133,7 +135,7 @@ class EventStream {
   EventPicker picker_;
   EventFilter drops_, ruptures_;
   FaultGrid grid_;                       // if slip is recorded
-  std::optional<DropLocator> locator_;   // the same
+  std::optional<DropLocator> locator_;   // the same, along a line
   std::optional<RuptureFinder> finder_;  // if ruptures or slip history are recorded
   bool slip_continues_ = false;          // with the state of a restart file
   std::vector<double> saved_history_;

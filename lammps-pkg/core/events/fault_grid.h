@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/fault_grid.h
-/// Divides a fault into bins along it and time into intervals of some steps, and describes what the
-/// faces did in each.
+/// Divides a fault into bins along it, or a plane into cells along strike and dip, and time into
+/// intervals of some steps, and describes what the faces did in each.
 ///
 /// Values of a bin and interval are kept as floats: thus the slip history has exactly the numbers
 /// from which events were found, and sums over several ranks, which differ in the order of the
@@ -9,13 +9,35 @@
 #ifndef LSM_FAULT_GRID_H
 #define LSM_FAULT_GRID_H
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace LSM {
 
-/// How the fault is divided, and the times of the intervals.
+/// Bins along one direction of a fault.
+struct FaultAxis {
+  int bins;
+  double begin;  ///< lower edge of the first bin
+  double width;  ///< of a bin
+  bool ring;     ///< periodic; otherwise it has two ends
+
+  double length() const { return bins * width; }
+  double edge(std::int64_t bin) const { return begin + static_cast<double>(bin) * width; }
+  double centre(std::int64_t bin) const { return begin + (static_cast<double>(bin) + 0.5) * width; }
+  /// The bin at a place; that at the end for places beyond an end.
+  int bin(double place) const {
+    double along = (place - begin) / length();
+    along = ring ? along - std::floor(along) : std::max(along, 0.0);
+    return std::min(static_cast<int>(along * bins), bins - 1);
+  }
+};
+
+/// How the fault is divided, and the times of the intervals. In two dimensions it is a line along
+/// x, the strike. In three it is a plane along x and z, the dip (upwards); its cells are numbered
+/// along dip first. Vectors have as many components as the fault has directions.
 struct FaultGrid {
   int bins = 1;
   double x0 = 0.0;            ///< lower edge of the first bin
@@ -26,17 +48,42 @@ struct FaultGrid {
   double dt = 1.0;            ///< time of a step
   bool ring = true;           ///< periodic; otherwise the fault has two ends
 
+  bool plane = false;     ///< with what follows
+  int rows = 1;           ///< bins along dip
+  double z0 = 0.0;        ///< lower edge of the first row
+  double height = 1.0;    ///< of a row
+  bool ring_dip = false;  ///< periodic along dip
+
+  FaultAxis strike() const { return {bins, x0, width, ring}; }
+  FaultAxis dip() const { return {rows, z0, height, ring_dip}; }
+  int cells() const { return bins * rows; }
+  std::size_t components() const { return plane ? 2 : 1; }
+  std::size_t fields() const;  ///< sums of a cell, see FaultField
+  double area() const { return plane ? width * height : width; }  ///< of a cell; of a bin its width
+
   double length() const { return bins * width; }
   double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
   double time(std::int64_t step) const;
   bool ends_interval(std::int64_t step) const;
-  double centre(std::int64_t bin) const { return x0 + (static_cast<double>(bin) + 0.5) * width; }
+  double centre(std::int64_t bin) const { return strike().centre(bin); }
+};
+
+/// A vector in the fault; along a line the dip is 0.
+struct FaultVector {
+  double strike = 0.0, dip = 0.0;
+
+  double size() const { return dip == 0.0 ? std::fabs(strike) : std::hypot(strike, dip); }
+  /// That of a cell, from the numbers of all.
+  static FaultVector of(const FaultGrid &grid, const std::vector<float> &all, std::size_t cell) {
+    if (!grid.plane) return {static_cast<double>(all[cell]), 0.0};
+    return {static_cast<double>(all[2 * cell]), static_cast<double>(all[2 * cell + 1])};
+  }
 };
 
 /// Mean place of bins with weights: on a ring the circular mean.
 class MeanPlace {
  public:
-  explicit MeanPlace(const FaultGrid &grid);
+  explicit MeanPlace(const FaultAxis &axis);
   /// What the weight of a bin is multiplied with in the two sums.
   double cosine(std::size_t bin) const { return cosine_[bin]; }
   double sine(std::size_t bin) const { return sine_[bin]; }
@@ -44,29 +91,50 @@ class MeanPlace {
   double of(double cosines, double sines) const;
 
  private:
-  FaultGrid grid_;
+  FaultAxis axis_;
   std::vector<double> cosine_, sine_;  // of the direction on the ring; otherwise place and 1
 };
 
-/// What the bins of the fault did in one interval. Slip and stress are positive in the direction in
-/// which the fault is driven.
+/// What the bins or cells of the fault did in one interval. Slip and stress along strike are
+/// positive in the direction in which the fault is driven, those along dip where the upper side
+/// moves up. Slip and stress have the components of each cell one after the other.
 struct FaultRow {
   std::vector<float> slip;    ///< mean displacement of the upper face along the lower one
   std::vector<float> work;    ///< work lost to friction
-  std::vector<float> stress;  ///< shear force of the contacts per length, mean over the interval
+  std::vector<float> stress;  ///< shear force of the contacts per area, mean over the interval
   FaultRow() = default;
   explicit FaultRow(int bins)
       : slip(static_cast<std::size_t>(bins)), work(slip.size()), stress(slip.size()) {}
+  explicit FaultRow(const FaultGrid &grid) : FaultRow(grid.cells()) {
+    slip.resize(grid.components() * work.size());
+    stress.resize(slip.size());
+  }
 };
 
 /// Sums of a bin over an interval, see SlipRecorder: displacements of the particles of each face
-/// and the steps that these took, work and force of the contacts.
-enum FaultField : std::size_t { UPPER, UPPER_STEPS, LOWER, LOWER_STEPS, WORK, FORCE, fault_fields };
+/// and the steps that these took, work and force of the contacts; of a cell of a plane then the
+/// displacements and the force along dip.
+enum FaultField : std::size_t {
+  UPPER,
+  UPPER_STEPS,
+  LOWER,
+  LOWER_STEPS,
+  WORK,
+  FORCE,
+  fault_fields,
+  UPPER_DIP = fault_fields,
+  LOWER_DIP,
+  FORCE_DIP,
+  plane_fields
+};
+inline std::size_t FaultGrid::fields() const { return plane ? plane_fields : fault_fields; }
 
-/// Mean displacement of a face in each bin, in so many steps; that of a bin without particles is
-/// interpolated linearly between the nearest two with particles, on a ring across the seam.
-std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
-                                       std::int64_t steps);
+/// Mean displacement of a face in each cell, in so many steps. That of a cell without particles is
+/// interpolated linearly between the nearest two along strike with particles, on a ring across the
+/// seam; where a whole row has none, between the nearest two rows with particles.
+/// \param field, steps_field of the face
+std::vector<double> face_displacements(const FaultGrid &grid, const double *sums, FaultField field,
+                                       FaultField steps_field, std::int64_t steps);
 
 /// Calculates the row of an interval from SlipRecorder::sums().
 /// \param steps length of the interval
@@ -75,7 +143,7 @@ FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps
 /// Defines what slips and what is connected. Part of the header of a slip history.
 struct RuptureSettings {
   double velocity = 0.0;    ///< bins whose slip velocity exceeds this slip
-  int gap = 0;              ///< bins that may lie between two that are connected
+  int gap = 0;              ///< bins that may lie between two that are connected, in each direction
   std::int64_t memory = 1;  ///< intervals over which bins are connected, at least 1
   double modulus = 1.0;     ///< shear modulus
 };

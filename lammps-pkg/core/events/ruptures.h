@@ -3,11 +3,12 @@
 /// Events of a fault as ruptures: sets of slipping contacts connected along the fault and in time
 /// † (the paper picks drops of the total potential energy, PE).
 ///
-/// Contacts are summed in bins along the fault and in intervals of so many steps. A bin
-/// slips in an interval if its mean slip velocity exceeds a given one. It is then connected with
-/// the bins at most gap + 1 from it (periodic) that slip in the same interval or in one of the
-/// `memory` intervals before it; see events/slip_sets.h. Unlike drops of the total PE, ruptures far
-/// apart on a long fault remain separate.
+/// Contacts are summed in bins along the fault, or in cells of a plane, and in intervals of so many
+/// steps. A bin slips in an interval if its mean slip velocity exceeds a given one. It is then
+/// connected with the bins at most gap + 1 from it in each direction (periodic, where the fault is)
+/// that slip in the same interval or in one of the `memory` intervals before it; see
+/// events/slip_sets.h. Unlike drops of the total PE, ruptures far apart on a long fault remain
+/// separate.
 #ifndef LSM_RUPTURES_H
 #define LSM_RUPTURES_H
 
@@ -24,10 +25,11 @@
 
 namespace LSM {
 
-/// Slip of one bin.
+/// Slip of one bin or cell.
 struct BinSlip {
   std::int64_t bin = 0;
   double slip = 0.0;
+  double dip = 0.0;  ///< slip along dip, on a plane
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     state(self.bin, self.slip);
@@ -35,7 +37,7 @@ struct BinSlip {
 };
 
 /// A rupture in units of bins and intervals.
-struct FaultRupture : SlipSet {
+struct FaultRupture : SlipPatch {
   std::int64_t hypocentre = 0;            ///< bin that slipped most in the first interval
   double first_slip = 0.0;                ///< slip of this bin in that interval
   double slip = 0.0;                      ///< sum over the bins and intervals
@@ -47,7 +49,13 @@ struct FaultRupture : SlipSet {
 
   std::vector<BinSlip> places;  ///< slip of each of its bins that slipped, in order of the bins
 
-  void add_slip(std::int64_t bin, double slip);
+  // On a plane; the numbers above are along strike.
+  double slip_dip = 0.0;                ///< sum over the cells and intervals
+  double dip_cos = 0.0, dip_sin = 0.0;  ///< as slip_cos and slip_sin, along dip
+  double most_slip = 0.0;               ///< of a cell in an interval
+  double stress_after_dip = 0.0;
+
+  void add_slip(const BinSlip &more);
   void absorb(const FaultRupture &later);
 
   template <class Self, class State>
@@ -57,13 +65,20 @@ struct FaultRupture : SlipSet {
           self.t_end, self.pe_start, self.pe_end, self.stress_after);
     state.list(self.places);
   }
+  /// What a rupture on a plane has besides.
+  template <class Self, class State>
+  static void visit_plane(Self &self, State &state) {
+    state(self.dip_begin, self.dip_length, self.slip_dip, self.dip_cos, self.dip_sin,
+          self.most_slip, self.stress_after_dip);
+    for (auto &place : self.places) state(place.dip);
+  }
 };
 
 /// State of the fault at the end of an interval.
 struct FaultMoment {
   std::int64_t intervals = 0;  ///< number of intervals so far
   double pe = 0.0;
-  std::vector<float> stress;  ///< of the bins
+  std::vector<float> stress;  ///< as FaultRow::stress
 };
 
 /// Connects slips of a fault to ruptures. Call begin(), then add() for each interval. Events have
@@ -115,30 +130,38 @@ class RuptureFinder {
     if (bins != self.grid_.bins)
       throw std::invalid_argument("saved ruptures are of another number of bins");
     state(step, self.active_, self.time_, self.pe_);
-    const auto room = [bins](auto &row) {
-      if constexpr (!std::is_const_v<Self>) row.resize(static_cast<std::size_t>(bins));
+    const std::size_t numbers =
+        self.grid_.components() * static_cast<std::size_t>(self.grid_.cells());
+    const auto room = [numbers](auto &row) {
+      if constexpr (!std::is_const_v<Self>) row.resize(numbers);
     };
     room(self.before_);
     state.fixed(self.before_);
     state.list(self.snapshots_, [&room](auto &snapshot) { room(snapshot.stress); });
     state.list(sets.open);
     state.list(sets.recent);
+    if (self.grid_.plane)
+      for (auto &rupture : sets.open) FaultRupture::visit_plane(rupture, state);
   }
 
   /// The stresses before a rupture began.
   const std::vector<float> &snapshot(std::int64_t interval) const;
 
-  double mean(const std::vector<float> &values, const SlipSet &row) const;
+  /// Mean stress where a rupture slipped: on a line of its row of bins, on a plane of its cells.
+  FaultVector mean(const std::vector<float> &stress, const FaultRupture &r) const;
+  void note_stress_after(FaultRupture &r, const std::vector<float> &stress) const;
 
   /// Drops the snapshots that no open rupture needs.
   void forget();
 
   Event event(const FaultRupture &r) const;
+  /// Fills the members that ruptures on a plane have in another way or besides.
+  void describe_patch(Event &e, const FaultRupture &r) const;
 
   FaultGrid grid_;
   RuptureSettings settings_;
   SlipSets<FaultRupture> sets_;
-  MeanPlace centroid_;
+  MeanPlace centroid_, centroid_dip_;
   std::vector<float> before_;     // stresses of the previous interval
   double time_ = 0.0, pe_ = 0.0;  // at its end
   bool active_ = false;

@@ -6,7 +6,6 @@
 #define LSM_SLIP_RECORDER_H
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -25,15 +24,17 @@ struct FaultContact {
   double force_z = 0.0;  ///< on the lower particle along z
 };
 
-/// Displacement along x of a particle of one of the two faces of the fault, in so many steps.
+/// Displacement along x, and on a plane along z, of a particle of one of the two faces of the
+/// fault, in so many steps.
 struct FaceDisplacement {
   double x;  ///< position in the middle of these steps
   double displacement;
   double steps;
   bool upper;
+  double z = 0.0, displacement_z = 0.0;
 };
 
-/// Sums over the contacts and faces of one rank, by bins and intervals. Sums of several ranks can
+/// Sums over the contacts and faces of one rank, by cells and intervals. Sums of several ranks can
 /// be added.
 class SlipRecorder {
  public:
@@ -42,41 +43,45 @@ class SlipRecorder {
   void begin(const FaultGrid &grid, double forward) {
     grid_ = grid;
     forward_ = forward;
-    sums_.assign(fault_fields * static_cast<std::size_t>(grid.bins), 0.0);
+    sums_.assign(grid.fields() * static_cast<std::size_t>(grid.cells()), 0.0);
   }
 
   const FaultGrid &grid() const { return grid_; }
-  /// The sums of the incomplete interval, fault_fields of each bin.
+  /// The sums of the incomplete interval, FaultGrid::fields() of each cell.
   std::vector<double> &sums() { return sums_; }
   void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
 
   /// Adds the contacts before the first interval, of which only the forces are needed.
   void add_forces(const std::vector<FaultContact> &contacts) {
-    for (const FaultContact &c : contacts) at(c.x)[FORCE] += c.share * (forward_ * c.force);
+    for (const FaultContact &c : contacts) add_force(at(c.x, c.z), c);
   }
   /// Contacts of a step.
   void add(const std::vector<FaultContact> &contacts) {
     for (const FaultContact &c : contacts) {
-      double *const sums = at(c.x);
+      double *const sums = at(c.x, c.z);
       sums[WORK] += c.share * c.work;
-      sums[FORCE] += c.share * (forward_ * c.force);
+      add_force(sums, c);
     }
   }
   void add(const std::vector<FaceDisplacement> &faces) {
     for (const FaceDisplacement &f : faces) {
-      double *const sums = at(f.x) + (f.upper ? UPPER : LOWER);
-      sums[0] += forward_ * f.displacement;
-      sums[1] += f.steps;
+      double *const sums = at(f.x, f.z);
+      sums[f.upper ? UPPER : LOWER] += forward_ * f.displacement;
+      sums[f.upper ? UPPER_STEPS : LOWER_STEPS] += f.steps;
+      if (grid_.plane) sums[f.upper ? UPPER_DIP : LOWER_DIP] += f.displacement_z;
     }
   }
 
  private:
-  /// The sums of the bin at x.
-  double *at(double x) {
-    double along = (x - grid_.x0) / grid_.length();
-    along = grid_.ring ? along - std::floor(along) : std::max(along, 0.0);
-    const int bin = std::min(static_cast<int>(along * grid_.bins), grid_.bins - 1);
-    return &sums_[fault_fields * static_cast<std::size_t>(bin)];
+  /// The sums of the cell at a place.
+  double *at(double x, double z) {
+    const int bin = grid_.strike().bin(x);
+    const int cell = grid_.plane ? bin * grid_.rows + grid_.dip().bin(z) : bin;
+    return &sums_[grid_.fields() * static_cast<std::size_t>(cell)];
+  }
+  void add_force(double *sums, const FaultContact &c) const {
+    sums[FORCE] += c.share * (forward_ * c.force);
+    if (grid_.plane) sums[FORCE_DIP] += c.share * c.force_z;
   }
 
   FaultGrid grid_;

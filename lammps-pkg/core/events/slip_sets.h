@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/slip_sets.h
 /// Sets of sliding places that are connected in space and time, assembled as the slips occur.
-/// Places are blocks of a chain or bins along a fault, and form a ring.
+/// Places are blocks of a chain or bins along a fault, and form a ring; or they are cells of a
+/// plane, rings of rings, and sets are patches (SlipPatch).
 ///
 /// A place that slides in step n is connected with the places at most `reach` from it that slide in
-/// step n or in one of the `memory` steps before it. A set ends when no sliding place can connect
+/// step n or in one of the `memory` steps before it; on a plane in both directions, so that
+/// neighbours across a corner are connected. A set ends when no sliding place can connect
 /// with it any more; two sets that meet become one.
 #ifndef LSM_SLIP_SETS_H
 #define LSM_SLIP_SETS_H
@@ -14,6 +16,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,23 +37,29 @@ struct SlipSet {
   }
 };
 
-/// Extends the row of a set by another row and the gap of at most `gap` places between them. A row
+/// A set on a plane: `begin` and `length` are along strike; the rows that slid and the gaps between
+/// them are `dip_length` consecutive ones from `dip_begin` on.
+struct SlipPatch : SlipSet {
+  std::int64_t dip_begin = 0, dip_length = 0;
+};
+
+/// Extends a row of places by another row and the gap of at most `gap` places between them. A row
 /// whose ends are no farther apart than `gap` covers the whole ring.
-inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::int64_t places,
-                   std::int64_t gap) {
-  if (set.length == places) return;
-  const std::int64_t behind = (begin - set.begin + places) % places;  // from set.begin to begin
-  std::int64_t n = std::max(set.length, behind + length);
-  const std::int64_t other = std::max(length, places - behind + set.length);
-  if (behind > set.length && other <= n) {
+inline void extend(std::int64_t &row_begin, std::int64_t &row_length, std::int64_t begin,
+                   std::int64_t length, std::int64_t places, std::int64_t gap) {
+  if (row_length == places) return;
+  const std::int64_t behind = (begin - row_begin + places) % places;  // from row_begin to begin
+  std::int64_t n = std::max(row_length, behind + length);
+  const std::int64_t other = std::max(length, places - behind + row_length);
+  if (behind > row_length && other <= n) {
     n = other;
-    set.begin = begin;
+    row_begin = begin;
   }
   if (places - n <= gap) {
     n = places;
-    set.begin = 0;
+    row_begin = 0;
   }
-  set.length = n;
+  row_length = n;
 }
 
 /// A place whose slip may still connect with later ones.
@@ -71,19 +80,26 @@ struct SlipSetsState {
   std::vector<RecentSlip> recent;
 };
 
-/// Combines slips to sets. Set is derived from SlipSet and has absorb(const Set &later), which adds
-/// the values of the derived class; the members of SlipSet are merged here.
+/// Combines slips to sets. Set is derived from SlipSet or SlipPatch and has absorb(const Set
+/// &later), which adds the values of the derived class; the members of SlipSet and SlipPatch are
+/// merged here.
 ///
 /// Call begin_step(), slide() for each place that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls. Memory: some words per place and per open set.
 template <class Set>
 class SlipSets {
  public:
-  SlipSets(int places, int reach, std::int64_t memory)
-      : places_(places), reach_(std::min(reach, std::max(1, places / 2))), memory_(memory) {
-    if (places < 1 || reach < 1) throw std::invalid_argument("rupture reach less than one place");
+  /// \param rows places along dip, for patches; place i of row k has the number i * rows + k
+  SlipSets(int places, int reach, std::int64_t memory, int rows = 1)
+      : places_(places),
+        rows_(rows),
+        reach_(std::min(reach, std::max(1, places / 2))),
+        reach_dip_(std::min(reach, rows / 2)),
+        memory_(memory) {
+    if (places < 1 || rows < 1 || reach < 1)
+      throw std::invalid_argument("rupture reach less than one place");
     if (memory < 1) throw std::invalid_argument("rupture memory less than one step");
-    last_.assign(static_cast<std::size_t>(places), never);
+    last_.assign(static_cast<std::size_t>(places) * static_cast<std::size_t>(rows), never);
     owner_.assign(last_.size(), 0);
   }
 
@@ -94,28 +110,38 @@ class SlipSets {
   /// \return the set of the place, valid until the next call
   template <class Begun>
   Set &slide(int i, Begun &&begun) {
+    return slide(i, 0, begun);
+  }
+  /// \param row of the place, for patches
+  template <class Begun>
+  Set &slide(int i, int row, Begun &&begun) {
     std::int32_t mine = none;
-    for (int d = -reach_; d <= reach_; ++d) {
-      int j = i + d;
-      if (j < 0) j += places_;
-      if (j >= places_) j -= places_;
-      if (last_[index(j)] < step_ - memory_) continue;
+    const auto meet = [&](int j) {
+      if (last_[index(j)] < step_ - memory_) return;
       const std::int32_t other = owner_[index(j)] = root(owner_[index(j)]);
       if (mine == none) {
         mine = other;
-        extend(nodes_[index(mine)].set, i, 1, places_, reach_ - 1);
+        extend_by(nodes_[index(mine)].set, place_at(i, row));
       } else if (mine != other) {
         mine = join(mine, other);
       }
+    };
+    for (int d = -reach_; d <= reach_; ++d) {
+      const int j = around(i + d, places_);
+      if constexpr (patches)
+        for (int e = -reach_dip_; e <= reach_dip_; ++e) meet(j * rows_ + around(row + e, rows_));
+      else
+        meet(j);
     }
+    const int place = patches ? i * rows_ + row : i;
     if (mine == none) {
-      mine = start(i);
+      mine = start(place, i, row);
       begun(nodes_[index(mine)].set);
     }
     Set &set = nodes_[index(mine)].set;
     set.step_end = step_;
-    last_[index(i)] = step_;
-    owner_[index(i)] = mine;
+    last_[index(place)] = step_;
+    owner_[index(place)] = mine;
     return set;
   }
 
@@ -165,7 +191,7 @@ class SlipSets {
       place[index(k)] = static_cast<std::int64_t>(s.open.size());
       s.open.push_back(nodes_[index(k)].set);
     }
-    for (int i = 0; i < places_ && !open_.empty(); ++i) {
+    for (int i = 0; i < places_ * rows_ && !open_.empty(); ++i) {
       if (last_[index(i)] > step_ - memory_)
         s.recent.push_back({i, last_[index(i)], place[index(root(owner_[index(i)]))]});
     }
@@ -182,14 +208,15 @@ class SlipSets {
     std::fill(last_.begin(), last_.end(), never);
     const std::invalid_argument bad("saved ruptures are inconsistent");
     const auto count = static_cast<std::int64_t>(s.open.size());
-    if (count > places_) throw bad;
+    if (count > static_cast<std::int64_t>(last_.size())) throw bad;
     for (const Set &set : s.open) {
       const auto k = static_cast<std::int32_t>(nodes_.size());
       nodes_.push_back({k, none, k, set});
       open_.push_back(k);
     }
     for (const RecentSlip &r : s.recent) {
-      if (r.place < 0 || r.place >= places_ || r.set < 0 || r.set >= count || r.step > step)
+      if (r.place < 0 || r.place >= static_cast<std::int64_t>(last_.size()) || r.set < 0 ||
+          r.set >= count || r.step > step)
         throw bad;
       last_[static_cast<std::size_t>(r.place)] = r.step;
       owner_[static_cast<std::size_t>(r.place)] = static_cast<std::int32_t>(r.set);
@@ -197,6 +224,7 @@ class SlipSets {
   }
 
  private:
+  static constexpr bool patches = std::is_base_of_v<SlipPatch, Set>;
   static constexpr std::int32_t none = -1;
   static constexpr std::int64_t never = INT64_MIN / 2;
 
@@ -217,7 +245,25 @@ class SlipSets {
     return k;
   }
 
-  std::int32_t start(int i) {
+  static int around(int i, int places) { return i < 0 ? i + places : i >= places ? i - places : i; }
+
+  static SlipPatch place_at(std::int64_t i, std::int64_t row) {
+    SlipPatch place;
+    place.begin = i;
+    place.dip_begin = row;
+    place.length = place.dip_length = 1;
+    return place;
+  }
+
+  template <class Other>
+  void extend_by(Set &set, const Other &other) const {
+    extend(set.begin, set.length, other.begin, other.length, places_, reach_ - 1);
+    if constexpr (patches)
+      extend(set.dip_begin, set.dip_length, other.dip_begin, other.dip_length, rows_,
+             reach_dip_ - 1);
+  }
+
+  std::int32_t start(int place, int i, [[maybe_unused]] int row) {
     std::int32_t k;
     if (free_.empty()) {
       k = static_cast<std::int32_t>(nodes_.size());
@@ -228,10 +274,14 @@ class SlipSets {
     }
     Set set;
     set.step_start = step_ - 1;
-    set.first = i;
+    set.first = place;
     set.begin = i;
     set.length = 1;
-    if (places_ <= reach_) extend(set, i, 1, places_, reach_ - 1);
+    if constexpr (patches) {
+      set.dip_begin = row;
+      set.dip_length = 1;
+    }
+    if (places_ <= reach_) extend_by(set, place_at(i, row));
     nodes_[index(k)] = {k, none, k, set};
     open_.push_back(k);
     return k;
@@ -241,7 +291,7 @@ class SlipSets {
     const Set &x = nodes_[index(a)].set, &y = nodes_[index(b)].set;
     if (std::tie(y.step_start, y.first) < std::tie(x.step_start, x.first)) std::swap(a, b);
     Node &into = nodes_[index(a)], &joined = nodes_[index(b)];
-    extend(into.set, joined.set.begin, joined.set.length, places_, reach_ - 1);
+    extend_by(into.set, joined.set);
     into.set.step_end = std::max(into.set.step_end, joined.set.step_end);
     into.set.absorb(joined.set);
     joined.parent = a;
@@ -250,7 +300,7 @@ class SlipSets {
     return a;
   }
 
-  int places_, reach_;
+  int places_, rows_, reach_, reach_dip_;
   std::int64_t memory_;
   std::int64_t step_ = 0;
   std::vector<std::int64_t> last_;   // step in which a place slid last

@@ -55,9 +55,9 @@ Number from_bytes(const char *from) {
 }
 
 // Info, the header of a kind of files, is a FileHeader and has
-//   magic                  the first 16 bytes of the file, the last two of them the version
-//   what                   it is, for messages
-//   visit(info, f)         calls f(name, number) for each number, in the order of the file
+//   magic                  the first 16 bytes of a file of version 1: a name, the version, a line
+//   end versions, version(), set_version(), which is called before the rest is read what it is, for
+//   messages visit(info, f)         calls f(name, number) for each number, in the order of the file
 //   header()               all parameters
 //   read(all parameters)   takes those that visit() leaves out; returns what is wrong, or ""
 //   problem()              what is wrong with the numbers, or ""
@@ -126,8 +126,11 @@ class RecordReader {
     if (found.substr(0, family.size()) != family)
       throw FileError(path + ": not a " + Info::what + ", expected a file that begins with " +
                       text_io::in_quotes(name));
-    if (found != Info::magic)
-      throw FileError(path + ": " + Info::what + " of another version, expected version 1");
+    const int version = found.size() == first.size() && found[15] == '\n' ? found[14] - '0' : 0;
+    if (version < 1 || version > Info::versions)
+      throw FileError(path + ": " + Info::what + " of another version, expected version 1" +
+                      (Info::versions > 1 ? " to " + std::to_string(Info::versions) : ""));
+    info_.set_version(version);
     std::array<char, 8> bytes{};
     const bool whole = in_->read(bytes.data(), bytes.size()) == bytes.size();
     const auto length = from_bytes<std::int64_t>(bytes.data());
@@ -200,6 +203,7 @@ class RecordWriter : public text_io::ResumableFile {
   void take(const Info &info) {
     const std::string lines = text_io::lines_of(checked(info));
     header_ = Info::magic;
+    header_[14] = static_cast<char>('0' + info.version());
     append_bytes(header_, static_cast<std::int64_t>(lines.size()));
     header_ += lines;
     info_ = info;

@@ -35,7 +35,15 @@ constexpr CatalogueColumn all_columns[] = {
     {"x_begin", &Event::x_begin, nullptr, &CatalogueInfo::x_begin},
     {"mean_slip", &Event::mean_slip, nullptr, &CatalogueInfo::mean_slip},
     {"stress_drop", &Event::stress_drop, nullptr, &CatalogueInfo::stress_drop},
-    {"peak_slip", &Event::peak_slip, nullptr, &CatalogueInfo::peak_slip}};
+    {"peak_slip", &Event::peak_slip, nullptr, &CatalogueInfo::peak_slip},
+    {"moment_strike", &Event::moment_strike, nullptr, &CatalogueInfo::plane},
+    {"moment_dip", &Event::moment_dip, nullptr, &CatalogueInfo::plane},
+    {"z_centroid", &Event::z_centroid, nullptr, &CatalogueInfo::plane},
+    {"rupture_width", &Event::rupture_width, nullptr, &CatalogueInfo::plane},
+    {"rupture_area", &Event::rupture_area, nullptr, &CatalogueInfo::plane},
+    {"z_hypocentre", &Event::z_hypocentre, nullptr, &CatalogueInfo::plane},
+    {"z_begin", &Event::z_begin, nullptr, &CatalogueInfo::plane},
+    {"peak_slip_rate", &Event::peak_slip_rate, nullptr, &CatalogueInfo::plane}};
 
 std::string column_line(const CatalogueInfo &info) {
   std::string out;
@@ -230,6 +238,9 @@ void CatalogueReader::read_columns() {
     if (there == 0 && !column.optional)
       reader_.fail("column " + text_io::in_quotes(column.name) + " is missing, expected '" +
                    column_line(CatalogueInfo()) + "'");
+    if (there == 0 && column.optional == &CatalogueInfo::plane && info_.plane)
+      reader_.fail("column " + text_io::in_quotes(column.name) +
+                   " is missing, expected all columns of ruptures on a plane");
   }
   overlapping_ = info_.overlapping();
 }

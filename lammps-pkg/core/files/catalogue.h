@@ -8,12 +8,13 @@
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
 /// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
-/// mean_slip, stress_drop, peak_slip. The program that writes them defines them. They are written
-/// in this order; a reader finds columns by name and ignores those it does not know. Times in model
-/// time, sizes in model energy, 17 significant digits. Events are in order of time and do not
-/// overlap; identifiers increase. Events of another kind than drops of PE, named by the parameter
-/// `events`, may overlap in time and are in order of their ends. The parameter `completeness` is a
-/// size: smaller events may depend on the time step.
+/// mean_slip, stress_drop, peak_slip; of ruptures on a plane then moment_strike, moment_dip,
+/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate. The program that
+/// writes them defines them. They are written in this order; a reader finds columns by name and
+/// ignores those it does not know. Times in model time, sizes in model energy, 17 significant
+/// digits. Events are in order of time and do not overlap; identifiers increase. Events of another
+/// kind than drops of PE, named by the parameter `events`, may overlap in time and are in order of
+/// their ends. The parameter `completeness` is a size: smaller events may depend on the time step.
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
@@ -39,6 +40,7 @@ struct CatalogueInfo : text_io::FileHeader {
   bool peak_slip = false;                                                ///< the same
   /// Optional columns that only ruptures have.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
+  bool plane = false;  ///< the columns that only ruptures on a plane have, all of them
 
   /// Whether events may overlap in time; if so, they are sorted by their ends.
   bool overlapping() const;

@@ -85,6 +85,7 @@ const std::vector<HeaderKey> &header_keys() {
       {"selected",           recording, text},
       // of slip and ruptures
       {"slip_bin",           recording, number},
+      {"slip_bin_dip",       recording, number},
       {"rupture_fraction",   recording, number},
       {"interval",           recording, whole},
       {"driving",            model,     number},
@@ -106,6 +107,10 @@ const std::vector<HeaderKey> &header_keys() {
       {"memory_intervals",   model,     whole},
       {"quiet",              model,     whole},
       {"ends",               model,     text},
+      {"bins_dip",           model,     whole},
+      {"z0",                 model,     number},
+      {"bin_dip",            model,     number},
+      {"ends_dip",           model,     text},
   };
   // clang-format on
   return keys;

@@ -28,6 +28,11 @@ struct FileHeader {
   std::string model;      ///< "lsm" or "block-slider"
   Parameters parameters;  ///< the other ones, in the order of the file
 
+  /// Versions of a binary format that there are, and that of this file, from 1 on.
+  static constexpr int versions = 1;
+  static constexpr int version() { return 1; }
+  static void set_version(int) {}
+
   /// Value of one of the other parameters, or nullptr.
   const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
 };

@@ -13,8 +13,12 @@ text_io::Parameters SlipHistoryInfo::header() const {
 }
 
 std::string SlipHistoryInfo::read(const text_io::Parameters &all) {
-  const std::string *const ends = text_io::find(all, "ends");
-  grid.ring = !ends || *ends != "open";
+  const auto ring = [&all](const char *key) {
+    const std::string *const ends = text_io::find(all, key);
+    return !ends || *ends != "open";
+  };
+  grid.ring = ring("ends");
+  grid.ring_dip = grid.plane && ring("ends_dip");
   return {};
 }
 
@@ -22,7 +26,11 @@ std::string SlipHistoryInfo::problem() const {
   if (model != "lsm") return "model is " + text_io::in_quotes(model) + ", expected 'lsm'";
   if (grid.bins < 1 || grid.bins > most_bins)
     return "bins is not a number of bins, expected 1 to " + std::to_string(most_bins);
+  if (grid.rows < 1 || grid.rows > most_bins / grid.bins)
+    return "bins_dip is " + text_io::number(grid.rows) + ", expected 1 to " +
+           std::to_string(most_bins / grid.bins) + " with " + std::to_string(grid.bins) + " bins";
   for (const auto &[name, value] : {std::pair<const char *, double>{"bin", grid.width},
+                                    {"bin_dip", grid.height},
                                     {"dt", grid.dt},
                                     {"modulus", ruptures.modulus}})
     if (!(value > 0.0))
@@ -49,15 +57,14 @@ bool SlipHistoryReader::next(SlipRecord &record) {
   record.pe = from_bytes<double>(at + 16);
   at += 24;
   if (!std::isfinite(record.pe)) fail("pe is not finite, expected a finite number");
-  for (std::vector<float> *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
-    values->resize(static_cast<std::size_t>(info().grid.bins));
+  record.row = FaultRow(info().grid);
+  for (std::vector<float> *values : {&record.row.slip, &record.row.work, &record.row.stress})
     for (float &value : *values) {
       value = from_bytes<float>(at);
       at += 4;
       if (!std::isfinite(value))
         fail("slip, work or stress of a bin is not finite, expected finite numbers");
     }
-  }
   check_steps(record);
   last_end_ = record.step_end;
   has_last_ = true;
@@ -90,7 +97,7 @@ void SlipHistoryWriter::create(const std::string &path, const SlipHistoryInfo &i
                                std::int64_t step, double pe, const std::vector<float> &stress) {
   begin(path, info);
   start(step);
-  SlipRecord first{step, step, pe, FaultRow(info.grid.bins)};
+  SlipRecord first{step, step, pe, FaultRow(info.grid)};
   first.row.stress = stress;
   put(first);
 }
@@ -98,7 +105,8 @@ void SlipHistoryWriter::create(const std::string &path, const SlipHistoryInfo &i
 void SlipHistoryWriter::find_cut(const std::string &path, const SlipHistoryInfo &info,
                                  const std::vector<double> &saved) {
   close();
-  if (saved.size() != 4 + 3 * static_cast<std::size_t>(info.grid.bins))
+  const FaultRow row(info.grid);
+  if (saved.size() != 4 + row.slip.size() + row.work.size() + row.stress.size())
     refuse(path, "the saved state is of another fault");
   SlipHistoryReader reader(text_io::open_plain(path), true);
   compare(path, reader.info(), info);
@@ -119,10 +127,8 @@ void SlipHistoryWriter::find_cut(const std::string &path, const SlipHistoryInfo 
 
 void SlipHistoryWriter::add(std::int64_t step_end, double pe, const FaultRow &row, bool active) {
   if (active) finish();
-  for (std::size_t b = 0; b < slip_.size(); ++b) {
-    slip_[b] += static_cast<double>(row.slip[b]);
-    work_[b] += static_cast<double>(row.work[b]);
-  }
+  for (std::size_t b = 0; b < slip_.size(); ++b) slip_[b] += static_cast<double>(row.slip[b]);
+  for (std::size_t b = 0; b < work_.size(); ++b) work_[b] += static_cast<double>(row.work[b]);
   last_.step_end = step_end;
   last_.pe = pe;
   last_.row.stress = row.stress;
@@ -140,19 +146,20 @@ std::vector<double> SlipHistoryWriter::state() const {
 void SlipHistoryWriter::start(std::int64_t step) {
   begin_ = step;
   pending_ = 0;
-  last_.row = FaultRow(info_.grid.bins);
+  last_.row = FaultRow(info_.grid);
   slip_.assign(last_.row.slip.size(), 0.0);
-  work_ = slip_;
+  work_.assign(last_.row.work.size(), 0.0);
 }
 
 void SlipHistoryWriter::finish() {
   if (pending_ == 0) return;
   last_.step_begin = begin_;
-  for (std::size_t b = 0; b < slip_.size(); ++b) {
-    last_.row.slip[b] = static_cast<float>(slip_[b]);
-    last_.row.work[b] = static_cast<float>(work_[b]);
-    slip_[b] = work_[b] = 0.0;
-  }
+  const auto take = [](std::vector<double> &sums, std::vector<float> &values) {
+    for (std::size_t b = 0; b < sums.size(); ++b)
+      values[b] = static_cast<float>(std::exchange(sums[b], 0.0));
+  };
+  take(slip_, last_.row.slip);
+  take(work_, last_.row.work);
   put(last_);
   begin_ = last_.step_end;
   pending_ = 0;

@@ -13,8 +13,11 @@
 ///     bins times float work              work lost to friction since step_begin
 ///     bins times float stress            shear stress, mean over the last interval
 ///
-/// everything little-endian. The first record is the state before the first interval (step_begin =
-/// step_end, no slip); every other record begins where the previous one ended.
+/// everything little-endian. The history of a plane is of version 2, "lsm-slip-hist-2\n": it has
+/// bins times bins_dip cells, those of the first bin along strike first, from the lowest up; slip
+/// and stress of each have two components, along strike and dip. The first record is the state
+/// before the first interval (step_begin = step_end, no slip); every other record begins where the
+/// previous one ended.
 #ifndef LSM_SLIP_HISTORY_H
 #define LSM_SLIP_HISTORY_H
 
@@ -37,7 +40,8 @@ namespace LSM {
 struct SlipHistoryInfo : text_io::FileHeader {
   static constexpr std::string_view magic = "lsm-slip-hist-1\n";
   static constexpr const char *what = "slip history";
-  static constexpr int most_bins = 1 << 20;
+  static constexpr int most_bins = 1 << 20;  ///< of a plane cells
+  static constexpr int versions = 2;
 
   FaultGrid grid;
   RuptureSettings ruptures;
@@ -45,6 +49,8 @@ struct SlipHistoryInfo : text_io::FileHeader {
   std::int64_t quiet = 1;  ///< intervals in a record while nothing slips, at most
 
   SlipHistoryInfo() { model = "lsm"; }
+  int version() const { return grid.plane ? 2 : 1; }
+  void set_version(int version) { grid.plane = version == 2; }
 
   template <class Self, class F>
   static void visit(Self &self, F &&f) {
@@ -61,11 +67,18 @@ struct SlipHistoryInfo : text_io::FileHeader {
     f("modulus", self.ruptures.modulus);
     f("driving", self.driving);
     f("quiet", self.quiet);
+    if (!self.grid.plane) return;
+    f("bins_dip", self.grid.rows);
+    f("z0", self.grid.z0);
+    f("bin_dip", self.grid.height);
   }
   text_io::Parameters header() const;
   std::string read(const text_io::Parameters &all);
   std::string problem() const;
-  std::int64_t record_bytes() const { return 24 + 12 * static_cast<std::int64_t>(grid.bins); }
+  std::int64_t record_bytes() const {
+    return 24 + 4 * static_cast<std::int64_t>((2 * grid.components() + 1) *
+                                              static_cast<std::size_t>(grid.cells()));
+  }
 };
 
 /// What the fault did between two steps.

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Slip of a plane: sums over its faces and contacts, ruptures as connected cells, slip histories.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "crack.h"
+#include "numerics/random.h"
+#include "unit_files.h"
+
+namespace {
+
+using LSM::Event;
+using LSM::FaultGrid;
+using LSM::FaultRow;
+using LSM::RuptureFinder;
+using LSM::RuptureSettings;
+using unit::contains;
+using unit::message_of;
+
+FaultGrid some_plane(int bins, int rows, bool ring = true, bool ring_dip = false) {
+  FaultGrid grid;
+  grid.plane = true;
+  grid.bins = bins;
+  grid.rows = rows;
+  grid.x0 = -5.0;
+  grid.width = 2.0;
+  grid.z0 = -6.0;
+  grid.height = 1.5;
+  grid.ring = ring;
+  grid.ring_dip = ring_dip;
+  grid.step0 = 1000;
+  grid.interval = 4;
+  grid.time0 = 50.0;
+  grid.dt = 0.25;
+  return grid;
+}
+
+RuptureSettings some_settings(int gap = 0, std::int64_t memory = 1) {
+  RuptureSettings settings;
+  settings.velocity = 0.005;
+  settings.gap = gap;
+  settings.memory = memory;
+  settings.modulus = 0.5;
+  return settings;
+}
+
+using Contacts = std::vector<LSM::FaultContact>;
+using Faces = std::vector<LSM::FaceDisplacement>;
+
+TEST(Plane, SlipWorkAndStressOfACell) {
+  const FaultGrid grid = some_plane(4, 3);
+  for (const double forward : {1.0, -1.0}) {
+    LSM::SlipRecorder sums;
+    sums.begin(grid, forward);
+    // Cell (1, 2) is from (-3, -3) to (-1, -1.5); one contact there belongs to two ranks.
+    for (int step = 0; step < 4; ++step)
+      sums.add(Contacts{{-2.0, 0.5, 6.0, 1.0, -2.0, -3.0},
+                        {-2.9, 0.25, 3.0, 0.5, -1.6, 9.0},
+                        {-2.9, 0.25, 3.0, 0.5, -1.6, 9.0}});
+    // Both faces have a particle in every cell; those of the upper one in (1, 2) move.
+    Faces faces;
+    for (int b = 0; b < 4; ++b)
+      for (int k = 0; k < 3; ++k)
+        for (const bool upper : {true, false}) {
+          const double moves = upper && b == 1 && k == 2 ? 1.0 : 0.0;
+          faces.push_back(
+              {-4.0 + 2.0 * b, 0.5 * moves, 4.0, upper, -5.25 + 1.5 * k, -0.25 * moves});
+        }
+    sums.add(faces);
+    const FaultRow row = LSM::fault_row(grid, sums.sums().data(), 4);
+    ASSERT_EQ(row.slip.size(), 24u);
+    ASSERT_EQ(row.work.size(), 12u);
+    ASSERT_EQ(row.stress.size(), 24u);
+    for (std::size_t cell = 0; cell < 12; ++cell) {
+      const bool it = cell == 1 * 3 + 2;
+      EXPECT_EQ(row.slip[2 * cell], it ? static_cast<float>(forward) * 0.5F : 0.0F) << cell;
+      EXPECT_EQ(row.slip[2 * cell + 1], it ? -0.25F : 0.0F)
+          << "the dip has no direction of driving";
+      EXPECT_EQ(row.work[cell], it ? 3.0F : 0.0F);
+      EXPECT_FLOAT_EQ(row.stress[2 * cell], it ? static_cast<float>(forward) * 9.0F / 3.0F : 0.0F);
+      EXPECT_FLOAT_EQ(row.stress[2 * cell + 1], it ? 6.0F / 3.0F : 0.0F);
+    }
+  }
+}
+
+// Particles at (bin, row) 0, 0 and 2, 0 and, two rows above, at 0, 2 only.
+TEST(Plane, CellsWithoutParticlesAreInterpolated) {
+  const FaultGrid grid = some_plane(4, 4);
+  LSM::SlipRecorder sums;
+  sums.begin(grid, 1.0);
+  for (const bool upper : {true, false}) {
+    const double d = upper ? 1.0 : 0.0;
+    sums.add(Faces{{-4.0, d * 1.0, 4.0, upper, -5.25, d * 8.0},
+                   {0.0, d * 3.0, 4.0, upper, -5.25, d * 4.0},
+                   {-4.0, d * 7.0, 4.0, upper, -2.25, d * 2.0}});
+  }
+  const FaultRow row = LSM::fault_row(grid, sums.sums().data(), 4);
+  const auto slip = [&](int b, int k, int c) {
+    return row.slip[static_cast<std::size_t>(2 * (4 * b + k) + c)];
+  };
+  for (int b = 0; b < 4; ++b) {
+    const float first = std::vector<float>{1, 2, 3, 2}[static_cast<std::size_t>(b)];
+    const float dip = std::vector<float>{8, 6, 4, 6}[static_cast<std::size_t>(b)];
+    EXPECT_FLOAT_EQ(slip(b, 0, 0), first) << "across the seam of the strike";
+    EXPECT_FLOAT_EQ(slip(b, 0, 1), dip);
+    EXPECT_FLOAT_EQ(slip(b, 1, 0), 0.5F * (first + 7.0F)) << "between rows";
+    EXPECT_FLOAT_EQ(slip(b, 1, 1), 0.5F * (dip + 2.0F));
+    EXPECT_FLOAT_EQ(slip(b, 2, 0), 7.0F);
+    EXPECT_FLOAT_EQ(slip(b, 3, 0), 7.0F) << "the dip has ends";
+  }
+}
+
+/// A slip of a cell in an interval.
+struct Slip {
+  std::int64_t interval;
+  int bin, row;
+  double strike, dip;
+};
+
+/// Work is a tenth of the size of the slip; the stress along strike of each cell after interval n
+/// is 2 - n / 16, that along dip n / 8; PE is -n.
+std::vector<Event> find(const std::vector<Slip> &slips, std::int64_t intervals,
+                        const FaultGrid &grid, const RuptureSettings &settings,
+                        bool restarts = false) {
+  std::vector<Event> events;
+  RuptureFinder finder(grid, settings);
+  for (std::int64_t n = 0; n <= intervals + settings.memory + 1; ++n) {
+    FaultRow row(grid);
+    for (std::size_t cell = 0; cell < row.work.size(); ++cell) {
+      row.stress[2 * cell] = 2.0F - static_cast<float>(n) / 16.0F;
+      row.stress[2 * cell + 1] = static_cast<float>(n) / 8.0F;
+    }
+    for (const Slip &s : slips) {
+      if (s.interval != n) continue;
+      const auto cell = static_cast<std::size_t>(s.bin * grid.rows + s.row);
+      row.slip[2 * cell] = static_cast<float>(s.strike);
+      row.slip[2 * cell + 1] = static_cast<float>(s.dip);
+      row.work[cell] = static_cast<float>(0.125 * std::hypot(s.strike, s.dip));
+    }
+    const std::int64_t step = grid.step0 + n * grid.interval;
+    const auto pe = -static_cast<double>(n);
+    if (n == 0)
+      finder.begin(grid.time(step), pe, row);
+    else
+      finder.add(grid.time(step), pe, row, [&events](const Event &e) { events.push_back(e); });
+    if (!restarts || n == 0) continue;
+    const std::vector<double> state = finder.state();
+    finder = RuptureFinder(grid, settings);
+    finder.set_state(state);
+  }
+  EXPECT_EQ(finder.open(), 0);
+  return events;
+}
+
+// Cells (5, 1), (5, 2), (0, 2) of a ring of 6 bins and 4 rows with ends.
+TEST(Plane, ARuptureWithAllItsNumbers) {
+  const std::vector<Event> events = find({{2, 5, 1, 0.375, 0.5},
+                                          {3, 5, 2, 0.25, 0.0},
+                                          {3, 5, 1, 0.0, 0.125},
+                                          {4, 0, 2, 0.125, -0.125}},
+                                         4, some_plane(6, 4), some_settings());
+  ASSERT_EQ(events.size(), 1u);
+  const Event &e = events[0];
+  EXPECT_EQ(e.step_start, 1004);
+  EXPECT_EQ(e.step_end, 1016);
+  EXPECT_EQ(e.t_start, 51.0);
+  EXPECT_EQ(e.t_end, 54.0);
+  EXPECT_EQ(e.pe_start, -1.0);
+  EXPECT_EQ(e.pe_end, -4.0);
+  EXPECT_NEAR(e.size, 0.125 * (0.625 + 0.25 + 0.125 + std::sqrt(2.0) / 8.0), 1e-8);
+  EXPECT_EQ(e.moment_strike, 0.5 * 0.75 * 3.0);
+  EXPECT_EQ(e.moment_dip, 0.5 * 0.5 * 3.0);
+  EXPECT_DOUBLE_EQ(e.slip_moment, 0.5 * std::hypot(0.75, 0.5) * 3.0);
+  EXPECT_EQ(e.rupture_area, 9.0);
+  EXPECT_EQ(e.rupture_length, 4.0);
+  EXPECT_EQ(e.rupture_width, 3.0);
+  EXPECT_EQ(e.x_begin, 5.0);
+  EXPECT_EQ(e.z_begin, -4.5);
+  EXPECT_EQ(e.x_hypocentre, 6.0);
+  EXPECT_EQ(e.z_hypocentre, -3.75);
+  EXPECT_DOUBLE_EQ(e.mean_slip, std::hypot(0.75, 0.5) / 3.0);
+  EXPECT_DOUBLE_EQ(e.peak_slip, std::hypot(0.375, 0.625));
+  EXPECT_EQ(e.peak_slip_rate, 0.625);  // of an interval of 1
+  const double first = 0.625 + 0.125, second = 0.25, third = std::sqrt(2.0) / 8.0;
+  EXPECT_NEAR(e.z_centroid,
+              -6.0 + 1.5 * (first * 1.5 + (second + third) * 2.5) / (first + second + third),
+              1e-12);
+  // From interval 1 to 5 the stress falls by 1/4 along strike, and rises by 1/2 along dip.
+  EXPECT_DOUBLE_EQ(e.stress_drop, (0.25 * 0.75 - 0.5 * 0.5) / std::hypot(0.75, 0.5));
+}
+
+TEST(Plane, CornersConnectAndEndsDoNot) {
+  const auto count = [](int bin, int row, const FaultGrid &grid, int gap) {
+    return find({{1, 0, 0, 1.0, 0.0}, {1, bin, row, 0.0, 1.0}}, 1, grid, some_settings(gap)).size();
+  };
+  for (const bool ring : {true, false})
+    for (const bool ring_dip : {true, false}) {
+      const FaultGrid grid = some_plane(7, 8, ring, ring_dip);
+      EXPECT_EQ(count(1, 1, grid, 0), 1u);
+      EXPECT_EQ(count(2, 1, grid, 0), 2u);
+      EXPECT_EQ(count(1, 2, grid, 0), 2u);
+      EXPECT_EQ(count(2, 2, grid, 1), 1u);
+      EXPECT_EQ(count(6, 0, grid, 0), ring ? 1u : 2u);
+      EXPECT_EQ(count(0, 7, grid, 0), ring_dip ? 1u : 2u);
+      EXPECT_EQ(count(6, 7, grid, 1), ring && ring_dip ? 1u : 2u);
+    }
+}
+
+/// Numbers of a rupture, found by a search through space and time.
+using Numbers = std::tuple<std::int64_t, std::int64_t, double, double, double, double, double>;
+
+/// Length of the shortest row of places that has all of some; the whole ring if no gap in it is
+/// wider than the given one.
+int span_of(const std::set<int> &places, int count, bool ring, int gap) {
+  if (!ring) return *places.rbegin() - *places.begin() + 1;
+  int widest = count - 1 - *places.rbegin() + *places.begin();
+  for (auto at = std::next(places.begin()); at != places.end(); ++at)
+    widest = std::max(widest, *at - *std::prev(at) - 1);
+  return widest <= gap ? count : count - widest;
+}
+
+std::vector<Numbers> search(std::vector<Slip> left, const FaultGrid &grid,
+                            const RuptureSettings &settings) {
+  const auto near = [](int a, int b, int places, bool ring, int reach) {
+    const int d = std::abs(a - b);
+    return d <= reach || (ring && places - d <= reach);
+  };
+  std::vector<Numbers> found;
+  while (!left.empty()) {
+    std::vector<Slip> all = {left.back()};
+    left.pop_back();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (std::size_t m = left.size(); m-- > 0;) {
+        const Slip a = all[k], b = left[m];
+        if (std::abs(a.interval - b.interval) > settings.memory ||
+            !near(a.bin, b.bin, grid.bins, grid.ring, settings.gap + 1) ||
+            !near(a.row, b.row, grid.rows, grid.ring_dip, settings.gap + 1))
+          continue;
+        all.push_back(b);
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(m));
+      }
+    std::set<int> bins, rows, cells;
+    std::int64_t first = INT64_MAX, last = 0;
+    double strike = 0.0, dip = 0.0;
+    for (const Slip &s : all) {
+      bins.insert(s.bin);
+      rows.insert(s.row);
+      cells.insert(s.bin * grid.rows + s.row);
+      first = std::min(first, s.interval);
+      last = std::max(last, s.interval);
+      strike += s.strike;
+      dip += s.dip;
+    }
+    const int gap = std::min(settings.gap, std::max(0, grid.bins / 2 - 1)),
+              gap_dip = std::min(settings.gap, std::max(0, grid.rows / 2 - 1));
+    found.emplace_back(first - 1, last, static_cast<double>(cells.size()), strike, dip,
+                       span_of(bins, grid.bins, grid.ring, gap),
+                       span_of(rows, grid.rows, grid.ring_dip, gap_dip));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Slips are multiples of 1/16, so that all sums are exact.
+TEST(Plane, RandomPatternsAgreeWithASearch) {
+  LSM::Random random(11);
+  std::size_t several = 0, holes = 0;
+  for (const auto &[bins, rows] :
+       std::vector<std::pair<int, int>>{{1, 1}, {1, 6}, {6, 1}, {2, 3}, {9, 7}, {12, 12}})
+    for (const double density : {0.02, 0.1})
+      for (const int gap : {0, 1})
+        for (const std::int64_t memory : {1, 3})
+          for (int trial = 0; trial < 12; ++trial) {
+            const FaultGrid grid = some_plane(bins, rows, trial % 2, trial / 2 % 2);
+            const RuptureSettings settings = some_settings(gap, memory);
+            std::vector<Slip> slips;
+            for (int n = 1; n <= 12; ++n)
+              for (int b = 0; b < bins; ++b)
+                for (int k = 0; k < rows; ++k)
+                  if (random.uniform() < density)
+                    slips.push_back({n, b, k, std::floor(16.0 * random.uniform() - 8.0) / 16.0,
+                                     std::floor(1.0 + 8.0 * random.uniform()) / 16.0});
+            const std::vector<Numbers> wanted = search(slips, grid, settings);
+            if (wanted.size() > 2) ++several;
+            for (const bool restarts : {false, true}) {
+              std::vector<Numbers> found;
+              for (const Event &e : find(slips, 12, grid, settings, restarts)) {
+                found.emplace_back((e.step_start - 1000) / 4, (e.step_end - 1000) / 4,
+                                   e.rupture_area / 3.0, e.moment_strike / 1.5, e.moment_dip / 1.5,
+                                   e.rupture_length / 2.0, e.rupture_width / 1.5);
+                if (e.rupture_area < e.rupture_length * e.rupture_width) ++holes;
+              }
+              std::sort(found.begin(), found.end());
+              ASSERT_EQ(found, wanted) << bins << " x " << rows << ", trial " << trial;
+            }
+          }
+  EXPECT_GT(several, 50u);
+  EXPECT_GT(holes, 50u);
+}
+
+TEST(Plane, StatesOfAnotherPlaneAreRefused) {
+  RuptureFinder finder(some_plane(6, 4), some_settings());
+  FaultRow row(some_plane(6, 4));
+  finder.begin(0.0, 0.0, row);
+  row.slip[5] = 1.0F;
+  finder.add(0.0, 0.0, row, [](const Event &) {});
+  const std::vector<double> state = finder.state();
+  RuptureFinder other(some_plane(6, 5), some_settings());
+  EXPECT_THROW(other.set_state(state), std::invalid_argument);
+  for (std::size_t n = 0; n < state.size(); ++n)
+    EXPECT_THROW(finder.set_state({state.begin(), state.begin() + static_cast<long>(n)}),
+                 std::invalid_argument);
+  EXPECT_NO_THROW(finder.set_state(state));
+}
+
+class PlaneFiles : public unit::Files {
+ protected:
+  std::string file() const { return path("slip.bin"); }
+  std::vector<LSM::SlipRecord> read() const {
+    LSM::SlipHistoryReader reader(LSM::text_io::open_plain(file()));
+    std::vector<LSM::SlipRecord> records;
+    for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
+    return records;
+  }
+};
+
+// Errors of area and moment are of the cells at the rim, and fall with the size of the cells.
+TEST_F(PlaneFiles, AnEllipticCrack) {
+  for (const double cell : {0.5, 0.25}) {
+    const unit::Crack crack(cell);
+    const std::vector<Event> events = crack.record(file());
+    ASSERT_EQ(events.size(), 1u);
+    const Event &e = events[0];
+    EXPECT_NEAR(e.rupture_area, crack.area(), 0.04 * cell * crack.area());
+    int reached = 0;
+    for (int k = 0; k < crack.grid.cells(); ++k) reached += crack.reached(k) < crack.until;
+    EXPECT_DOUBLE_EQ(e.rupture_area, reached * crack.grid.area());
+    EXPECT_NEAR(e.slip_moment, crack.moment(), 0.02 * cell * crack.moment());
+    EXPECT_NEAR(e.moment_strike, 0.8 * e.slip_moment, 1e-6 * e.slip_moment);
+    EXPECT_NEAR(e.moment_dip, -0.6 * e.slip_moment, 1e-6 * e.slip_moment);
+    EXPECT_NEAR(e.rupture_length, 2.0 * crack.speed * crack.until, 2.0 * cell);
+    EXPECT_NEAR(e.rupture_width, 2.0 * crack.speed_dip * crack.until, 2.0 * cell);
+    EXPECT_DOUBLE_EQ(e.x_hypocentre, crack.x);
+    EXPECT_DOUBLE_EQ(e.z_hypocentre, crack.z);
+    EXPECT_NEAR(e.x_centroid, crack.x, 1e-5);
+    EXPECT_NEAR(e.z_centroid, crack.z, 1e-5);
+    EXPECT_EQ(e.t_start, 7.0);
+    EXPECT_NEAR(e.t_end, 7.0 + crack.until, 1e-9);
+    EXPECT_NEAR(e.peak_slip, crack.rate * crack.until, 1e-5);
+    EXPECT_NEAR(e.stress_drop, crack.drop, 1e-6);
+    EXPECT_NEAR(e.size, crack.drop * crack.moment() / crack.modulus, 0.02 * cell * e.size);
+    EXPECT_GT(e.peak_slip_rate, crack.rate);
+
+    // All of the slip is in its history.
+    const std::vector<LSM::SlipRecord> records = read();
+    double strike = 0.0, dip = 0.0;
+    for (const LSM::SlipRecord &record : records)
+      for (std::size_t k = 0; k < record.row.work.size(); ++k) {
+        strike += static_cast<double>(record.row.slip[2 * k]);
+        dip += static_cast<double>(record.row.slip[2 * k + 1]);
+      }
+    EXPECT_NEAR(crack.modulus * strike * crack.grid.area(), e.moment_strike, 1e-4 * e.slip_moment);
+    EXPECT_NEAR(crack.modulus * dip * crack.grid.area(), e.moment_dip, 1e-4 * e.slip_moment);
+  }
+}
+
+TEST_F(PlaneFiles, HistoriesAreOfVersion2) {
+  const unit::Crack crack(1.0);
+  crack.record(file());
+  const std::string bytes = unit::slurp(file());
+  EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
+  EXPECT_TRUE(contains(bytes, "# bins_dip = 20\n# z0 = -16.5\n# bin_dip = 1\n# ends = open\n"));
+  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(file()));
+  const FaultGrid &grid = reader.info().grid;
+  EXPECT_TRUE(grid.plane);
+  EXPECT_FALSE(grid.ring || grid.ring_dip);
+  EXPECT_EQ(grid.cells(), 800);
+  EXPECT_EQ(grid.rows, 20);
+  EXPECT_EQ(grid.z0, crack.grid.z0);
+  EXPECT_EQ(grid.height, 1.0);
+  const std::int64_t record = 24 + 4 * 5 * 800;
+  EXPECT_EQ(reader.info().record_bytes(), record);
+  LSM::SlipRecord first;
+  ASSERT_TRUE(reader.next(first));
+  EXPECT_EQ(first.row.stress, crack.row(0).stress);
+  ASSERT_TRUE(reader.next(first));
+  EXPECT_EQ(first.row.slip, crack.row(1).slip);
+  EXPECT_EQ(first.row.work, crack.row(1).work);
+
+  const auto expect = [&](const std::string &from, const std::string &to, const std::string &part) {
+    std::string changed = bytes;
+    changed.replace(changed.find(from), from.size(), to);
+    unit::spill(file(), changed);
+    EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { read(); }), part)) << part;
+  };
+  expect("# bins_dip = 20", "# bins_dip = 00", "bins_dip is 0, expected 1 to 26214 with 40 bins");
+  expect("# bin_dip = 1", "# bin_dip = 0", "bin_dip is 0, expected a positive number");
+  expect("# z0 = -16.5", "# zo = -16.5", "parameter 'z0' is missing in the header");
+  expect("hist-2", "hist-3", "another version, expected version 1 to 2");
+}
+
+TEST_F(PlaneFiles, HistoriesGoOnByteForByte) {
+  const unit::Crack crack(1.0);
+  crack.record(file());
+  const std::string whole = unit::slurp(file());
+  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(LSM::text_io::open_plain(file())).info();
+  for (const std::int64_t stop : {0, 3, 7}) {
+    LSM::SlipHistoryWriter before, after;
+    before.create(file(), info, crack.grid.step0, 0.0, crack.row(0).stress);
+    const auto go_on = [&](LSM::SlipHistoryWriter &writer, std::int64_t from, std::int64_t to) {
+      for (std::int64_t n = from + 1; n <= to; ++n)
+        writer.add(crack.grid.step0 + n * crack.grid.interval, 0.0, crack.row(n), n > 2);
+    };
+    go_on(before, 0, stop);
+    const std::vector<double> state = before.state();
+    go_on(before, stop, 10);
+    before.close();
+    const std::string until_10 = unit::slurp(file());
+    after.find_cut(file(), info, state);
+    after.cut();
+    go_on(after, stop, 10);
+    after.close();
+    EXPECT_EQ(unit::slurp(file()), until_10);
+  }
+  EXPECT_EQ(whole.size() % static_cast<std::size_t>(info.record_bytes()),
+            unit::slurp(file()).size() % static_cast<std::size_t>(info.record_bytes()));
+}
+
+}  // namespace
