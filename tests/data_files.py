@@ -118,25 +118,30 @@ def read_series(path):
 def read_history(path):
     """Header, and the records of a slip history: step_begin, step_end, pe, slip, work, stress."""
     head, records = binary_header(Path(path).read_bytes(), b"lsm-slip-hist-1\n")
-    bins = int(head["bins"])
-    return head, np.frombuffer(records, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8"), ("slip", "<f4", bins), ("work", "<f4", bins),
-                                         ("stress", "<f4", bins)])
+    return head, np.frombuffer(records, history_record((int(head["bins"]),)))
+
+
+def history_record(cells):
+    """A record of a slip history: of a line with (bins,), of a plane with (bins, bins_dip) cells."""
+    vectors = cells if len(cells) == 1 else cells + (2,)
+    return [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8"), ("slip", "<f4", vectors), ("work", "<f4", cells), ("stress", "<f4", vectors)]
 
 
 def write_history(path, steps, slip, stress=0.0, work=0.0, **head):
-    """Writes a slip history: the slip of each bin between one step and the next. The first record is the state at steps[0]."""
+    """Writes a slip history: the slip of each bin between one step and the next, of a plane (step, strike, dip, component). The first
+    record is the state at steps[0]."""
     slip = np.asarray(slip, "<f4")
-    bins = slip.shape[1]
+    cells = slip.shape[1:2] if slip.ndim == 2 else slip.shape[1:3]
+    plane = dict(bins_dip=cells[1], z0=0, bin_dip=1, ends="open", ends_dip="open") if len(cells) == 2 else {}
     head = {
-        **dict(model="lsm", bins=bins, x0=0, bin=1, step0=steps[0], interval=1, time0=0, dt=1, slip_velocity=5e-3, gap=1, memory_intervals=3, modulus=0.4, driving=1e-3, quiet=100),
-        **head
+        **dict(model="lsm", bins=cells[0], x0=0, bin=1, step0=steps[0], interval=1, time0=0, dt=1, slip_velocity=5e-3, gap=1, memory_intervals=3, modulus=0.4, driving=1e-3, quiet=100),
+        **plane, **head
     }
     said = "".join(f"# {key} = {value}\n" for key, value in head.items()).encode()
-    records = np.zeros(len(steps), [("begin", "<i8"), ("end", "<i8"), ("pe", "<f8"), ("slip", "<f4", bins), ("work", "<f4", bins),
-                                    ("stress", "<f4", bins)])
-    records["begin"], records["end"] = [steps[0], *steps[:-1]], steps
+    records = np.zeros(len(steps), history_record(cells))
+    records["step_begin"], records["step_end"] = [steps[0], *steps[:-1]], steps
     records["slip"], records["stress"], records["work"] = slip, stress, work
-    Path(path).write_bytes(b"lsm-slip-hist-1\n" + struct.pack("<q", len(said)) + said + records.tobytes())
+    Path(path).write_bytes(b"lsm-slip-hist-%d\n" % len(cells) + struct.pack("<q", len(said)) + said + records.tobytes())
 
 
 def read_dump(path):

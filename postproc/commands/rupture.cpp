@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "command.h"
 #include "input_file.h"
 #include "run_files.h"
@@ -51,7 +53,9 @@ class Rupture : public CatalogueAnalysis {
            "proportional, against moment (BASE-pe), stress drop against moment (BASE-stress). "
            "With a slip history, also the slip velocity in space and time with the ruptures "
            "outlined (BASE-spacetime), lines of the slip along the fault (BASE-lines), and the "
-           "rupture of the largest moment in detail (BASE-event)";
+           "rupture of the largest moment in detail (BASE-event). With the history of a plane: maps "
+           "of that rupture, of its slip (BASE-slip), the time at which it came (BASE-time) and its "
+           "largest slip velocity (BASE-rate), and its moment rate (BASE-momentrate)";
   }
 
   void add_options(CLI::App *command) override {
@@ -73,12 +77,42 @@ class Rupture : public CatalogueAnalysis {
   }
   std::vector<std::string> endings() const override {
     return picture_files({"-spacetime", "-spacetime-outlines", "-lines", "-event", "-event-lines",
-                          "-lengths", "-moments", "-length", "-pe", "-stress"});
+                          "-slip", "-time", "-time-contours", "-rate", "-momentrate", "-lengths",
+                          "-moments", "-length", "-pe", "-stress"});
   }
 
-  void draw_history(const EventTable &catalogue, Results &results) const {
+  /// Returns whether it is that of a plane.
+  bool draw_history(const EventTable &catalogue, Results &results) const {
     SlipHistoryReader history = open_history(history_, catalogues.lenient);
     check_same_run(header_of(catalogue), {history_, history.info().header()});
+    const bool plane = history.info().grid.plane;
+    if (plane != catalogue.info.plane)
+      throw std::runtime_error(fmt::format(
+          "{}: ruptures {}, expected its slip history, found that of a {}", catalogue.path,
+          plane ? "along a line" : "on a plane", plane ? "plane" : "line"));
+    if (plane)
+      draw_maps(catalogue, history, results);
+    else
+      draw_line(catalogue, history, results);
+    return plane;
+  }
+
+  void draw_maps(const EventTable &catalogue, SlipHistoryReader &history, Results &results) const {
+    std::vector<Event> inside;
+    for (const Event &e : catalogue.details)
+      if (e.t_start >= catalogues.from_time && e.t_end <= catalogues.to_time) inside.push_back(e);
+    const Event event = largest_in(inside, catalogue.path);
+    const SlipMap map = with_path(history_, [&] { return slip_map(history, event); });
+    Table lines("time,x1,z1,x2,z2");
+    Figure time = rupture_time_figure(map, event, lines);
+    results.figure("", slip_map_figure(map, event), "-slip");
+    results.table("", std::move(lines), "-time-contours");
+    results.figure("", std::move(time), "-time");
+    results.figure("", slip_rate_figure(map, event), "-rate");
+    results.figure("", moment_rate_figure(map, event), "-momentrate");
+  }
+
+  void draw_line(const EventTable &catalogue, SlipHistoryReader &history, Results &results) const {
     std::vector<SlipRecord> records;
     for (SlipRecord record; history.next(record);) records.push_back(record);
     const auto between = [&](double from, double to) {
@@ -126,14 +160,24 @@ class Rupture : public CatalogueAnalysis {
       return false;
     });
     results.table("catalogues", std::move(largest_of));
-    if (!history_.empty()) draw_history(tables.front(), results);
+    const bool plane = !history_.empty() && draw_history(tables.front(), results);
+    try {
+      add_statistics(tables, results);
+    } catch (const DegenerateData &error) {
+      // A rupture of a plane is often the only one of its run.
+      if (!plane) throw;
+      results.say(fmt::format("no figures of all ruptures: {}\n", error.what()));
+    }
+    return results;
+  }
+
+  static void add_statistics(const std::vector<EventTable> &tables, Results &results) {
+    const RuptureRelations relations = rupture_relations(tables);
     results.figure("lengths", densities(tables, RuptureQuantity::length), "-lengths");
     results.figure("moments", densities(tables, RuptureQuantity::moment), "-moments");
-    const RuptureRelations relations = rupture_relations(tables);
     results.figure("length", moment_length_figure(relations), "-length");
     results.figure("pe", moment_pe_figure(relations), "-pe");
     results.figure("stress", stress_drop_figure(relations), "-stress");
-    return results;
   }
 };
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -373,6 +375,116 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
                    window.from - event.t_start, window.to - event.t_start) +
               fmt::format(fmt::runtime(detail_panels), wave("P", p_speed), wave("S", s_speed)),
           {900, 900}};
+}
+
+namespace {
+
+/// Colours of values from 0 to the largest, readable without colour vision and in print.
+constexpr std::string_view map_palette =
+    "set palette defined (0 '#ffffff', 1 '#fff3c4', 2 '#fdc86b', 3 '#f3883c', 4 '#c7443c', "
+    "5 '#7a1f63', 6 '#1d0b3a')\n";
+
+/// A map of the values of the cells, with the hypocentre. Very large and very small values are
+/// drawn as multiples of a power of 1000, as numbers with exponents have no room beside the
+/// colours. \param label of the values, in model units \param more elements of the plot command,
+/// beginning with a comma
+Figure map_figure(const SlipMap &map, const Event &event, const std::vector<double> &values,
+                  const std::string &column, const std::string &label, const std::string &settings,
+                  const std::string &more = "") {
+  Table table("x,z," + column);
+  table.comment(fmt::format("rupture {} from its first place {}, {} and time {}: {}", event.id,
+                            short_number(map.x_first, 6), short_number(map.z_first, 6),
+                            short_number(event.t_start, 8), label));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (std::isnan(values[k]))
+      table.row(map.x(k), map.z(k), std::string_view("NaN"));
+    else
+      table.row(map.x(k), map.z(k), values[k]);
+  double most = 0.0;
+  for (const double value : values) most = std::fmax(most, value);
+  const int power = most > 0.0 ? 3 * static_cast<int>(std::floor(std::log10(most) / 3.0)) : 0;
+  const std::string unit = power == 0 ? "model units" : fmt::format("10^{{{}}} model units", power);
+  const double length = map.strike.length(), width = map.dip.length();
+  // The map fills the room between the axes and the scale of the colours, if it is not very narrow.
+  const int height = static_cast<int>(std::clamp(740.0 * width / length, 200.0, 900.0));
+  return {
+      std::move(table),
+      "set datafile columnheaders\nset size ratio -1\nunset grid\nset key off\n" +
+          axis("x", "Along strike (model units)", false, map.strike.begin,
+               map.strike.begin + length) +
+          axis("y", "Along dip, upwards (model units)", false, map.dip.begin,
+               map.dip.begin + width) +
+          "set cblabel " + quote_plain(label + " (" + unit + ")") + " offset 1\n" + settings +
+          fmt::format("plot table using 1:2:($3*1e{}) with image", -power) + more +
+          fmt::format(", \\\n     '+' using ({}):({}) every ::::0 with points pt 3 ps 1.6*point "
+                      "lw 1.6 lc rgb '#0072B2'\n",
+                      text_io::number(map.x_first), text_io::number(map.z_first)),
+      {1000, height + 160}};
+}
+
+/// The first of 1, 2 and 5 times 10^n that divides a length into at most 12 parts.
+double contour_spacing(double length) {
+  const double least = length / 12.0, ten = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (digit * ten >= least) return digit * ten;
+  return 10.0 * ten;
+}
+
+}  // namespace
+
+Figure slip_map_figure(const SlipMap &map, const Event &event) {
+  return map_figure(map, event, map.slip, "slip", "Slip",
+                    std::string(map_palette) + "set cbrange [0:*]\n");
+}
+
+Figure rupture_time_figure(const SlipMap &map, const Event &event, Table &lines) {
+  double last = 0.0;
+  for (const double time : map.time) last = std::fmax(last, time);
+  const double spacing = contour_spacing(last > 0.0 ? last : 1.0);
+  lines.comment(
+      fmt::format("contours of the time since the rupture began, every {}", short_number(spacing)));
+  // Each contour has its time where it is farthest along strike.
+  std::map<double, std::pair<double, double>> labels;
+  for (const ContourPiece &piece : contours(map, map.time, spacing)) {
+    lines.row(piece.level, piece.x[0], piece.z[0], piece.x[1], piece.z[1]);
+    const auto at = labels.emplace(piece.level, std::make_pair(piece.x[0], piece.z[0])).first;
+    for (std::size_t end = 0; end < 2; ++end)
+      at->second = std::max(at->second, std::make_pair(piece.x[end], piece.z[end]));
+  }
+  std::string settings =
+      "set palette defined (0 '#f7fbff', 1 '#9ecae1', 2 '#3182bd', 3 '#08306b')\n"
+      "set style textbox opaque noborder margins 0.3,0.3\n";
+  for (const auto &[level, at] : labels)
+    settings += fmt::format("set label {} at {},{} center front boxed\n",
+                            quote_plain("{/*0.8 " + short_number(level) + "}"),
+                            text_io::number(at.first), text_io::number(at.second));
+  return map_figure(map, event, map.time, "time", "Time since the rupture began", settings,
+                    ", \\\n     base.'-contours.csv' using 2:3:($4-$2):($5-$3) with vectors nohead "
+                    "lc rgb '#000000' lw 1 dt 1");
+}
+
+Figure slip_rate_figure(const SlipMap &map, const Event &event) {
+  return map_figure(map, event, map.rate, "peak_slip_rate", "Largest slip velocity",
+                    std::string(map_palette) + "set cbrange [0:*]\n");
+}
+
+Figure moment_rate_figure(const SlipMap &map, const Event &event) {
+  Table table("time,moment_rate,along_strike,along_dip");
+  table.comment(fmt::format("rupture {}: time since it began, {}, moment per time", event.id,
+                            short_number(event.t_start, 8)));
+  for (const MomentRate &one : map.moment)
+    table.row(one.time, one.rate.size(), one.rate.strike, one.rate.dip);
+  return {
+      std::move(table),
+      "set datafile columnheaders\n" +
+          axis("x", "Time since the rupture began (model units)", false, 0.0,
+               event.t_end - event.t_start) +
+          axis("y", "Moment rate (model units)", false, std::numeric_limits<double>::quiet_NaN(),
+               std::numeric_limits<double>::quiet_NaN()) +
+          "plot table using 1:2 with lines lc rgb '#bbbbbb' lw 5 dt 1 title 'length of both', "
+          "\\\n     table using 1:3 with lines lt 1 title 'along strike', \\\n"
+          "     table using 1:4 with lines lt 2 title 'along dip'\n",
+      {}};
 }
 
 }  // namespace LSM::postproc

@@ -10,6 +10,7 @@
 #include "files/catalogue.h"
 #include "plot.h"
 #include "ruptures.h"
+#include "slip_map.h"
 #include "slip_window.h"
 
 namespace LSM::postproc {
@@ -47,6 +48,15 @@ Figure slip_lines_figure(const HistoryWindow &window, double locked, double slip
 /// \param lines gets outline, wave fronts and slip; the script reads it as BASE-lines.csv
 Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, double p_speed,
                              double s_speed, Table &lines);
+
+/// Maps of one rupture on a plane: its slip; the time at which it came, with contours; its largest
+/// slip velocity.
+Figure slip_map_figure(const SlipMap &map, const Event &event);
+/// \param lines gets the contours; the script reads it as BASE-contours.csv
+Figure rupture_time_figure(const SlipMap &map, const Event &event, Table &lines);
+Figure slip_rate_figure(const SlipMap &map, const Event &event);
+/// Its moment per time, and the components of it.
+Figure moment_rate_figure(const SlipMap &map, const Event &event);
 
 }  // namespace LSM::postproc
 

@@ -124,7 +124,9 @@ double smallest_moment(const CatalogueInfo &info) {
     if (!text || !text_io::parse(*text, value) || !(value > 0.0)) return 0.0;
     moment *= value;
   }
-  return moment;
+  double height = 0.0;  // of the cells of a plane
+  const std::string *const text = info.find("slip_bin_dip");
+  return text && text_io::parse(*text, height) ? moment * height : moment;
 }
 
 namespace {

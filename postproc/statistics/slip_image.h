@@ -38,7 +38,7 @@ struct SlipImage {
 /// rows, is right to a few per cent of its last row.
 /// \param from, to model times
 /// \throws FileError if the history cannot be read
-/// \throws std::runtime_error if there is no record between these times
+/// \throws std::runtime_error if it is of a plane, or there is no record between these times
 SlipImage slip_image(SlipHistoryReader &reader,
                      double from = -std::numeric_limits<double>::infinity(),
                      double to = std::numeric_limits<double>::infinity(), int most_columns = 240,

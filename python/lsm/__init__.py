@@ -6,6 +6,7 @@
     events["size"], events.header["seed"]
     series = lsm.read_series("fault.pe.bin")              # series["time"], series["pe"]
     slip = lsm.read_slip("fault.slip.bin")                # slip["slip"]: records x places
+    plane = lsm.read_slip("plane.slip.bin")               # plane["slip"]: records x strike x dip x components
 
 Each function returns a Table: a NumPy structured array with the header of the file as `header`, a
 dict of texts. pandas.DataFrame(events) makes a data frame. A file of another kind, or a damaged
@@ -85,13 +86,14 @@ def read_catalogue(path):
     return Table(np.array(rows, list(zip(names, kinds))), _parameters(lines[:first]))
 
 
-def _binary(path, magic, what):
+def _binary(path, magics, what):
     raw = _bytes(path)
-    if raw[:16] != magic:
-        raise ValueError(f"{path}: no {what}, expected '{magic.decode().strip()}' in the first 16 bytes")
+    if raw[:16] not in magics:
+        expected = " or ".join(f"'{magic.decode().strip()}'" for magic in magics)
+        raise ValueError(f"{path}: no {what}, expected {expected} in the first 16 bytes")
     if len(raw) < 24 or len(raw) - 24 < (length := struct.unpack("<q", raw[16:24])[0]) or length < 0:
         raise ValueError(f"{path}: the header is not complete")
-    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), raw[24 + length:]
+    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), raw[24 + length:], magics.index(raw[:16]) + 1
 
 
 def _records(raw, kinds):
@@ -101,7 +103,7 @@ def _records(raw, kinds):
 
 def read_series(path):
     """Reads a PE series: columns step, time, pe."""
-    header, raw = _binary(path, b"lsm-pe-series-1\n", "PE series")
+    header, raw, _ = _binary(path, [b"lsm-pe-series-1\n"], "PE series")
     if header.get("times") == "own":
         return Table(_records(raw, [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]), header)
     stored = _records(raw, [("step", "<i8"), ("pe", "<f8")])
@@ -113,12 +115,16 @@ def read_series(path):
 
 
 def read_slip(path):
-    """Reads a slip history: columns step_begin, step_end, pe; slip, work and stress of each place."""
-    header, raw = _binary(path, b"lsm-slip-hist-1\n", "slip history")
-    bins = _number(path, header, "bins", int)
-    if bins < 1:
-        raise ValueError(f"{path}: parameter 'bins' is {bins}, expected at least 1")
-    places = [(name, "<f4", (bins,)) for name in ("slip", "work", "stress")]
+    """Reads a slip history: columns step_begin, step_end, pe; slip, work and stress of each place. Of a plane, slip and stress have the
+    shape (records, strike, dip, component), with the components along strike and dip, and work is (records, strike, dip); dip is upwards."""
+    header, raw, version = _binary(path, [b"lsm-slip-hist-1\n", b"lsm-slip-hist-2\n"], "slip history")
+    names = ["bins", "bins_dip"][:version]
+    shape = tuple(_number(path, header, name, int) for name in names)
+    for name, bins in zip(names, shape):
+        if bins < 1:
+            raise ValueError(f"{path}: parameter '{name}' is {bins}, expected at least 1")
+    components = (2,) if version == 2 else ()
+    places = [("slip", "<f4", shape + components), ("work", "<f4", shape), ("stress", "<f4", shape + components)]
     return Table(_records(raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import table
+from data_files import table, write_history
 from programs import SOURCE, refused, run
 
 sys.path.insert(0, str(SOURCE / "python"))
@@ -67,13 +67,28 @@ def test_a_later_1_x_may_add_lines_and_columns(postproc):
     assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == len(lsm.read_catalogue("later.csv")) == wanted["rows"]
 
 
+def test_python_reads_slip_of_a_plane():
+    slip = np.arange(3 * 4 * 5 * 2).reshape(3, 4, 5, 2)
+    work, stress = slip[..., 0] + 0.25, -slip
+    write_history("plane.slip.bin", [100, 110, 120], slip, stress=stress, work=work)
+    found = lsm.read_slip("plane.slip.bin")
+    assert found.header["bins_dip"] == "5" and list(found["step_end"]) == [100, 110, 120]
+    for name, wanted in ("slip", slip), ("work", work), ("stress", stress):
+        assert np.array_equal(found[name], wanted), name
+    raw = Path("plane.slip.bin").read_bytes()
+    Path("plane.slip.bin").write_bytes(raw.replace(b"# bins_dip = 5", b"# bins_dip = 0"))
+    with pytest.raises(ValueError, match="plane.slip.bin: parameter 'bins_dip' is 0, expected at least 1"):
+        lsm.read_slip("plane.slip.bin")
+
+
 def test_another_number_is_refused(postproc):
     for name, old in ("fault.catalogue.csv", b"lsm-catalogue 1"), ("fault.pe.bin", b"lsm-pe-series-1"), ("fault.slip.bin", b"lsm-slip-hist-1"):
         raw = (DATA / name).read_bytes()
-        Path(name).write_bytes(raw.replace(old, old[:-1] + b"2", 1))
-    refused(postproc, "count fault.catalogue.csv", "version '2', expected version 1")
+        Path(name).write_bytes(raw.replace(old, old[:-1] + b"3", 1))
+    refused(postproc, "count fault.catalogue.csv", "version '3', expected version 1")
     refused(postproc, "series fault.pe.bin -o x", "of another version, expected version 1")
-    refused(postproc, ["rupture", DATA / "fault.ruptures.csv", "--history", "fault.slip.bin", "-o", "x"], "of another version, expected version 1")
+    refused(postproc, ["rupture", DATA / "fault.ruptures.csv", "--history", "fault.slip.bin", "-o", "x"],
+            "of another version, expected version 1 to 2")
     for name, read in ("fault.catalogue.csv", lsm.read_catalogue), ("fault.pe.bin", lsm.read_series), ("fault.slip.bin", lsm.read_slip):
         with pytest.raises(ValueError, match=f"{name}: "):
             read(name)

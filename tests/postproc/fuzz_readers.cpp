@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -75,7 +76,11 @@ bool same(const LSM::Event &a, const LSM::Event &b) {
          a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.slip_moment == b.slip_moment &&
          a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length &&
          a.x_hypocentre == b.x_hypocentre && a.x_begin == b.x_begin && a.mean_slip == b.mean_slip &&
-         a.stress_drop == b.stress_drop && a.peak_slip == b.peak_slip;
+         a.stress_drop == b.stress_drop && a.peak_slip == b.peak_slip &&
+         a.moment_strike == b.moment_strike && a.moment_dip == b.moment_dip &&
+         a.z_centroid == b.z_centroid && a.rupture_width == b.rupture_width &&
+         a.rupture_area == b.rupture_area && a.z_hypocentre == b.z_hypocentre &&
+         a.z_begin == b.z_begin && a.peak_slip_rate == b.peak_slip_rate;
 }
 
 Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
@@ -133,6 +138,7 @@ void try_catalogue(const std::string &path) {
   info.model = "lsm";
   info.slip_moment = info.x_centroid = info.rupture_length = true;
   info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = info.peak_slip = true;
+  info.plane = true;
   LSM::CatalogueWriter writer;
   writer.create(copy, info);
   for (const LSM::Event &event : strict) writer.write(event);
@@ -153,8 +159,11 @@ void try_history(const std::string &path) {
       std::int64_t last = 0;
       while (reader.next(record)) {
         require(std::isfinite(record.pe), "finite PE");
+        const LSM::FaultGrid &grid = reader.info().grid;
+        const auto cells = static_cast<std::size_t>(grid.cells());
         for (const auto *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
-          require(values->size() == static_cast<std::size_t>(reader.info().grid.bins), "all bins");
+          const bool scalar = values == &record.row.work;
+          require(values->size() == (scalar ? 1 : grid.components()) * cells, "all cells");
           for (const float x : *values) require(std::isfinite(x), "finite numbers");
         }
         require(counts[lenient] == 0 ? record.step_begin == record.step_end
@@ -253,9 +262,10 @@ std::string slurp(const std::string &path) {
 std::vector<std::string> seeds() {
   std::vector<std::string> out;
   const std::string path = (folder().path / "seed").string();
-  for (const bool columns : {false, true}) {
+  for (const auto &[columns, plane] : {std::pair{false, false}, {true, false}, {true, true}}) {
     LSM::CatalogueInfo info;
     info.model = columns ? "lsm" : "block-slider";
+    info.plane = plane;
     info.parameters = {{"dt", "0.03"}, {"length", "120"}, {"picker", "exponential"}};
     info.slip_moment = info.x_centroid = info.rupture_length = columns;
     info.x_begin = info.stress_drop = info.peak_slip = columns;
@@ -291,19 +301,22 @@ std::vector<std::string> seeds() {
   return out;
 }
 
-/// A small slip history as compute lsm/events writes it.
-std::string history_seed() {
+/// A small slip history as compute lsm/events writes it, of a line or a plane.
+std::string history_seed(bool plane) {
   const std::string path = (folder().path / "seed").string();
   LSM::SlipHistoryInfo info;
   info.grid.bins = 2;
   info.grid.interval = 10;
   info.grid.dt = 0.06;
   info.quiet = 3;
+  info.grid.plane = plane;
+  info.grid.rows = plane ? 2 : 1;
   LSM::SlipHistoryWriter writer;
-  writer.create(path, info, 0, 1.0, {0.5F, 0.25F});
+  LSM::FaultRow row(info.grid);
+  row.stress[0] = 0.5F;
+  writer.create(path, info, 0, 1.0, row.stress);
   for (int n = 1; n <= 9; ++n) {
-    LSM::FaultRow row(2);
-    row.slip = {0.25F, 0.0F};
+    row.slip[0] = 0.25F;
     writer.add(10 * n, 1.0 - 0.01 * n, row, n > 3 && n < 7);
   }
   writer.close();
@@ -404,7 +417,7 @@ int main(int argc, char **argv) {
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
   std::vector<std::string> files = seeds();
-  files.push_back(history_seed());
+  for (const bool plane : {false, true}) files.push_back(history_seed(plane));
   Mutator mutator(seed);
   const auto run = [](const std::string &text) {
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t *>(text.data()), text.size());

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import edit, power_law, rows, table, write_catalogue, write_series
+from data_files import edit, power_law, rows, table, write_catalogue, write_history, write_series
 from programs import refused, run
 
 pytestmark = pytest.mark.usefixtures("gnuplot")
@@ -557,3 +557,45 @@ def test_rupture(do, no):
     no("a.csv: not a slip history", "rupture a.csv --history a.csv -o x")
     Path("two.csv").write_text("".join(Path("a.csv").read_text().splitlines(True)[:7]))
     no("expected at least 3", "rupture two.csv -o x")
+
+
+def test_rupture_on_a_plane(do, no):
+    # A rupture spreads from the middle of 21 x 11 cells of a half at a speed of 1; each cell slips by 0.3 along strike and -0.4 down dip,
+    # evenly in the two time units from then on.
+    x, z = np.meshgrid((np.arange(21) + 0.5) / 2, (np.arange(11) + 0.5) / 2, indexing="ij")
+    begin, steps = np.hypot(x - 5.25, z - 2.75), np.arange(81)
+    done = np.clip((0.1 * steps[:, None, None] - begin) / 2, 0, 1)
+    write_history("p.slip.bin", steps, np.diff(done, axis=0, prepend=0)[..., None] * [0.3, -0.4], bin=0.5, bin_dip=0.5, dt=0.1)
+    head = dict(model="lsm", length=10.5, events="ruptures", slip_bin=0.5, slip_bin_dip=0.5, dt=0.1, modulus=0.4)
+    columns = dict(t_end=[8], step_start=[0], step_end=[80], slip_moment=[0.4 * 0.25 * 0.5 * 231], x_centroid=[5.25], rupture_length=[10.5],
+                   x_hypocentre=[5.25], x_begin=[0], mean_slip=[0.5], stress_drop=[1], peak_slip=[0.5], moment_strike=[3], moment_dip=[-4],
+                   z_centroid=[2.75], rupture_width=[5.5], rupture_area=[57.75], z_hypocentre=[2.75], z_begin=[0], peak_slip_rate=[0.25])
+    write_catalogue("p.csv", [0], [1], head, **columns)
+    do("rupture p.csv --history p.slip.bin -o m").printed("no figures of all ruptures: 0 ruptures for a fit, expected at least 3")
+    pictures("m-slip", "m-time", "m-rate", "m-momentrate")
+
+    def read(path):
+        return np.array([[float(cell) for cell in row.split(",")] for row in rows(path)]).T
+
+    for path, wanted, close in ("m-slip.csv", np.full((11, 21), 0.5), 1e-6), ("m-rate.csv", np.full((11, 21),
+                                                                                                    0.25), 1e-6), ("m-time.csv", begin.T, 0.15):
+        at_x, at_z, found = read(path)
+        assert np.array_equal(at_x, x.T.ravel()) and np.array_equal(at_z, z.T.ravel())
+        assert found == pytest.approx(wanted.ravel(), abs=close), path
+    level, *ends = read("m-time-contours.csv")
+    assert sorted(set(level)) == pytest.approx(list(np.arange(0.5, 5.1, 0.5)))
+    for at_x, at_z in (ends[:2], ends[2:]):
+        assert np.hypot(at_x - 5.25, at_z - 2.75) == pytest.approx(level, abs=0.15)
+    time, rate, along, down = read("m-momentrate.csv")
+    assert rate == pytest.approx(np.hypot(along, down)) and along == pytest.approx(-0.75 * down)
+    assert time[0] == pytest.approx(0.05) and rate.sum() * 0.1 == pytest.approx(0.4 * 0.25 * 0.5 * 231, rel=1e-6)
+    for said_of in "m-time.svg", "m-slip.svg":
+        said(said_of, "Along strike", "Along dip, upwards")
+    # What does not belong together is refused.
+    write_history("line.slip.bin", steps, np.diff(done[:, :, 5], axis=0, prepend=0), dt=0.1, bin=0.5)
+    no("p.csv: ruptures on a plane, expected its slip history, found that of a line", "rupture p.csv --history line.slip.bin -o x")
+    ruptures("a.csv")
+    no("a.csv: ruptures along a line, expected its slip history, found that of a plane", "rupture a.csv --history p.slip.bin -o x")
+    no("p.slip.bin: slip history of a plane, expected that of a line", "explore p.csv --history p.slip.bin -o x.html")
+    write_history("short.slip.bin", steps[:40], np.diff(done[:40], axis=0, prepend=0)[..., None] * [0.3, -0.4], bin=0.5, bin_dip=0.5, dt=0.1)
+    no("short.slip.bin: does not have all of rupture 1, expected its slip until step 80", "rupture p.csv --history short.slip.bin -o x")

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "crack.h"
 #include "input_file.h"
 #include "rupture_figures.h"
 #include "unit_files.h"
@@ -220,6 +221,112 @@ TEST(AloneInTime, CountsWhatOverlaps) {
   EXPECT_EQ(slips_by_itself(events), (std::vector<bool>{false, false, false, true, false}));
   events[4].slip_moment = 0.005;
   EXPECT_EQ(slips_by_itself(events), (std::vector<bool>{true, false, false, true, false}));
+}
+
+// ---- maps of a plane
+
+class RuptureMaps : public unit::Files {
+ protected:
+  std::string file() const { return path("plane.bin"); }
+  SlipMap map_of(const unit::Crack &crack) const {
+    const std::vector<Event> events = crack.record(file());
+    EXPECT_EQ(events.size(), 1U);
+    SlipHistoryReader reader = open_history(file(), false);
+    return slip_map(reader, events.at(0));
+  }
+};
+
+TEST_F(RuptureMaps, OfAnEllipticCrack) {
+  double late = 0.0;
+  for (const double cell : {0.5, 0.25}) {
+    const unit::Crack crack(cell);
+    const SlipMap map = map_of(crack);
+    EXPECT_EQ(map.x_first, crack.x);
+    EXPECT_EQ(map.z_first, crack.z);
+    EXPECT_NEAR(map.strike.length(), 24.0, 2.0 * cell);
+    EXPECT_NEAR(map.dip.length(), 12.0, 2.0 * cell);
+    double worst = 0.0, slip = 0.0;
+    int came = 0;
+    for (std::size_t k = 0; k < map.time.size(); ++k) {
+      const double reached =
+          std::hypot((map.x(k) - crack.x) / crack.speed, (map.z(k) - crack.z) / crack.speed_dip);
+      ASSERT_EQ(std::isnan(map.time[k]), !(reached < crack.until)) << reached;
+      if (std::isnan(map.time[k])) continue;
+      ++came;
+      slip += map.slip[k];
+      worst = std::max(worst, std::fabs(map.time[k] - reached));
+      EXPECT_NEAR(map.slip[k],
+                  crack.rate * std::sqrt(crack.until * crack.until - reached * reached), 1e-5);
+      EXPECT_GT(map.rate[k], 0.05);
+    }
+    // The slip rate jumps within an interval; the middle of the one before is 1.5 before its end.
+    EXPECT_LT(worst, 1.5 * crack.grid.duration());
+    EXPECT_NEAR(came * crack.grid.area(), crack.area(), 0.04 * cell * crack.area());
+    if (late > 0.0) {
+      EXPECT_LT(worst, 0.6 * late);
+    }
+    late = worst;
+
+    // The moment rate adds up to the moment of the crack until then, and in the end.
+    double moment = 0.0;
+    for (const MomentRate &one : map.moment) {
+      moment += one.rate.size() * crack.grid.duration();
+      const double end = std::min(one.time + 0.5 * crack.grid.duration(), crack.until);
+      EXPECT_NEAR(moment, crack.moment(end), 0.02 * cell * crack.moment());
+      EXPECT_NEAR(one.rate.dip, -0.75 * one.rate.strike, 1e-4 * one.rate.size() + 1e-9);
+    }
+    EXPECT_NEAR(moment, crack.modulus * slip * crack.grid.area(), 1e-4 * moment);
+
+    // Contours are ellipses about the hypocentre.
+    std::size_t pieces = 0;
+    for (const ContourPiece &piece : contours(map, map.time, 1.5)) {
+      ++pieces;
+      for (std::size_t end = 0; end < 2; ++end)
+        EXPECT_NEAR(std::hypot((piece.x[end] - crack.x) / crack.speed,
+                               (piece.z[end] - crack.z) / crack.speed_dip),
+                    piece.level, 0.5 * cell);
+    }
+    EXPECT_GT(pieces, 100U);
+  }
+}
+
+TEST_F(RuptureMaps, ContoursOfAPlaneAreStraightAndEndAtGaps) {
+  SlipMap map{{5, 0.0, 1.0, false}, {4, 0.0, 1.0, false}, 0.0, 0.0, {}, {}, {}, {}};
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 20; ++k) values.push_back(map.x(k) + 2.0 * map.z(k));
+  double length = 0.0;
+  for (const ContourPiece &piece : contours(map, values, 2.0)) {
+    length += std::hypot(piece.x[1] - piece.x[0], piece.z[1] - piece.z[0]);
+    for (std::size_t end = 0; end < 2; ++end)
+      EXPECT_NEAR(piece.x[end] + 2.0 * piece.z[end], piece.level, 1e-12);
+  }
+  // x + 2 z = 2, 4, 6, 8, 10 within 0.5 to 4.5 and 0.5 to 3.5: differences of x of 0.5, 2.5,
+  // 4, 3.5, 1.5.
+  EXPECT_NEAR(length, 12.0 * std::sqrt(1.25), 1e-12);
+  values.assign(20, 7.0);
+  EXPECT_TRUE(contours(map, values, 1.0).empty());
+  values[7] = std::numeric_limits<double>::quiet_NaN();
+  values[0] = 3.0;
+  for (const ContourPiece &piece : contours(map, values, 2.0)) EXPECT_LT(piece.x[0], 2.0);
+}
+
+TEST_F(RuptureMaps, AcrossTheSeam) {
+  unit::Crack crack(0.5);
+  crack.grid.ring = true;
+  crack.seam = crack.grid.length();
+  for (const int bin : {40, 79, 0}) {
+    crack.x = crack.grid.strike().centre(bin);
+    const SlipMap map = map_of(crack);
+    EXPECT_NEAR(map.strike.length(), 24.0, 1.0);
+    // The rectangle begins within the period, and may continue beyond its end.
+    EXPECT_DOUBLE_EQ(map.x_first, crack.x + (bin == 0 ? crack.seam : 0.0));
+    EXPECT_NEAR(map.strike.begin + 0.5 * map.strike.length(), map.x_first, 1e-9);
+    for (std::size_t k = 0; k < map.time.size(); ++k) {
+      const double reached = std::hypot((map.x(k) - map.x_first) / crack.speed,
+                                        (map.z(k) - crack.z) / crack.speed_dip);
+      EXPECT_EQ(std::isnan(map.time[k]), !(reached < crack.until)) << reached;
+    }
+  }
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct Crack {
   double strike = 0.8, dip = -0.6;      ///< direction of the slip
   double stress = 3.0, drop = 0.25;     ///< before, and fallen by, in that direction
   double modulus = 0.4;
+  double seam = 0.0;  ///< period along strike; 0: none
 
   LSM::FaultGrid grid;
 
@@ -45,9 +46,9 @@ struct Crack {
   }
   /// Time since its begin at which it reaches a cell.
   double reached(int cell) const {
-    const double dx = (grid.strike().centre(cell / grid.rows) - x) / speed,
-                 dz = (grid.dip().centre(cell % grid.rows) - z) / speed_dip;
-    return std::hypot(dx, dz);
+    double dx = grid.strike().centre(cell / grid.rows) - x;
+    if (seam > 0.0) dx = std::remainder(dx, seam);
+    return std::hypot(dx / speed, (grid.dip().centre(cell % grid.rows) - z) / speed_dip);
   }
   double slip(int cell, double t) const {
     const double r = reached(cell);
@@ -55,12 +56,10 @@ struct Crack {
     return t > r ? rate * std::sqrt(t * t - r * r) : 0.0;
   }
   double area() const { return pi * speed * speed_dip * until * until; }
-  double moment() const {
-    return modulus * rate * (2.0 / 3.0) * pi * speed * speed_dip * until * until * until;
-  }
-  /// Rate of the moment at a time before the end.
-  double moment_rate(double t) const {
-    return modulus * rate * 2.0 * pi * speed * speed_dip * t * t;
+  double moment() const { return moment(until); }
+  /// Moment until a time before its end.
+  double moment(double t) const {
+    return modulus * rate * (2.0 / 3.0) * pi * speed * speed_dip * t * t * t;
   }
   LSM::RuptureSettings settings() const {
     LSM::RuptureSettings s;
@@ -110,7 +109,8 @@ struct Crack {
     info.grid = grid;
     info.ruptures = settings();
     info.driving = 0.01;
-    info.parameters = {{"ends", "open"}, {"ends_dip", "open"}};
+    info.parameters = {{"ends_dip", "open"}};
+    if (!grid.ring) info.parameters.emplace_back("ends", "open");
     LSM::SlipHistoryWriter writer;
     const LSM::FaultRow before = row(0);
     finder.begin(grid.time0, 0.0, before);

@@ -377,7 +377,8 @@ TEST_F(PlaneFiles, HistoriesAreOfVersion2) {
   crack.record(file());
   const std::string bytes = unit::slurp(file());
   EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
-  EXPECT_TRUE(contains(bytes, "# bins_dip = 20\n# z0 = -16.5\n# bin_dip = 1\n# ends = open\n"));
+  EXPECT_TRUE(contains(
+      bytes, "# bins_dip = 20\n# z0 = -16.5\n# bin_dip = 1\n# ends_dip = open\n# ends = open\n"));
   LSM::SlipHistoryReader reader(LSM::text_io::open_plain(file()));
   const FaultGrid &grid = reader.info().grid;
   EXPECT_TRUE(grid.plane);

@@ -8,7 +8,10 @@ const columnNames = {
   step_start: ['First step', ''], step_end: ['Last step', ''],
   slip_moment: ['Slip moment', ''], x_centroid: ['Centre', 'place'], rupture_length: ['Length', 'length'],
   x_hypocentre: ['First place', 'place'], x_begin: ['From', 'place'], mean_slip: ['Mean slip', 'length'],
-  stress_drop: ['Stress drop', 'stress'], peak_slip: ['Largest slip', 'length']
+  stress_drop: ['Stress drop', 'stress'], peak_slip: ['Largest slip', 'length'],
+  moment_strike: ['Moment along strike', ''], moment_dip: ['Moment along dip', ''], rupture_width: ['Width along dip', 'length'],
+  rupture_area: ['Area', 'area'], z_centroid: ['Centre, z', 'place'], z_hypocentre: ['First place, z', 'place'], z_begin: ['From, z', 'place'],
+  peak_slip_rate: ['Largest slip rate', 'velocity']
 };
 
 class EventPanel {
