@@ -142,15 +142,22 @@ void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
 {
   const bigint step = update->ntimestep;
   const double time = clock.at(step);
-  const double bins = domain->prd[0] / settings.bin_width;
+  const bool plane = domain->dimension == 3;
+  const double bins = domain->prd[0] / settings.bin_width *
+                      (plane ? std::max(1.0, domain->prd[2] / settings.bin_width) : 1.0);
   constexpr auto most = LSM::SlipHistoryInfo::most_bins;
   if (bins > static_cast<double>(most))
     error->all(FLERR,
-               "Compute lsm/events: bin {} makes {:.0f} bins of a box of length {}, expected at "
+               "Compute lsm/events: bin {} makes {:.0f} bins of a box of length {}{}, expected at "
                "most {}",
-               settings.bin_width, bins, domain->prd[0], most);
+               settings.bin_width, bins, domain->prd[0],
+               plane ? fmt::format(" and depth {}", domain->prd[2]) : "", most);
   LSM::FaultGrid grid = settings.grid(domain->boxlo[0], domain->prd[0], step, time, update->dt);
   grid.ring = domain->xperiodic;
+  if (plane) {
+    grid = settings.plane(grid, domain->boxlo[2], domain->prd[2]);
+    grid.ring_dip = domain->zperiodic;
+  }
   const bool had_slip = saved && saved->has_slip();
   fault_begun = had_slip && saved->continues_with(grid, settings.finds_ruptures());
   if (had_slip && !fault_begun && comm->me == 0)
@@ -207,25 +214,34 @@ void ComputeLSMEvents::setup_record()
 // length
 void ComputeLSMEvents::check_box()
 {
+  check_box_along(0);
+  if (domain->dimension == 3 && settings.records_slip()) check_box_along(1);
+}
+
+// k: 0 along x, 1 along z
+void ComputeLSMEvents::check_box_along(int k)
+{
+  const int d = 2 * k;
+  const char name = "xz"[k];
   const bool placed = settings.records_slip();
   if (placed)
     for (const auto &ifix : modify->get_fix_list())
-      if (ifix->box_change & Fix::BOX_CHANGE_X)
+      if (ifix->box_change & (k ? Fix::BOX_CHANGE_Z : Fix::BOX_CHANGE_X))
         error->all(FLERR,
-                   "Compute lsm/events {}: fix {} changes the box along x, which {} cannot follow",
-                   id, ifix->id, settings.asked_by());
-  if (period == 0.0) {
-    begin = domain->boxlo[0];
-    period = domain->prd[0];
+                   "Compute lsm/events {}: fix {} changes the box along {}, which {} cannot follow",
+                   id, ifix->id, name, settings.asked_by());
+  if (period[k] == 0.0) {
+    begin[k] = domain->boxlo[d];
+    period[k] = domain->prd[d];
   }
-  if (begin == domain->boxlo[0] && period == domain->prd[0]) return;
+  if (begin[k] == domain->boxlo[d] && period[k] == domain->prd[d]) return;
   for (const auto &[key, file] : LSM::files_of(settings))
     if (placed || !file.empty())
       error->all(
           FLERR,
-          "Compute lsm/events {}: the box along x was {} to {} when it began and is {} to {} "
+          "Compute lsm/events {}: the box along {} was {} to {} when it began and is {} to {} "
           "now, which {} cannot follow; uncompute it first, and define another with other files",
-          id, begin, begin + period, domain->boxlo[0], domain->boxhi[0],
+          id, name, begin[k], begin[k] + period[k], domain->boxlo[d], domain->boxhi[d],
           placed ? "the places of events" : "the header of file " + file);
 }
 

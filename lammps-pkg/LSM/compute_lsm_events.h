@@ -72,7 +72,10 @@ class ComputeLSMEvents : public Compute {
   std::string failure;    // error on rank 0, which the others have to be told
   LSMProgress progress;
 
-  double begin = 0.0, period = 0.0;    // lower end and length of the box along x at the first run
+  // lower end and length of the box at the first run, along x and, where slip of a plane is
+  // recorded, along z
+
+  double begin[2] = {0.0, 0.0}, period[2] = {0.0, 0.0};
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
   void set_memory();
@@ -83,6 +86,7 @@ class ComputeLSMEvents : public Compute {
   void begin_fault();
   void add_faces();
   void check_box();
+  void check_box_along(int k);
   void leave_out_jump();
   void start_gather();
   void finish_gather();

@@ -20,6 +20,7 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   if (narg != 3 && !faces) error->all(FLERR, "Fix LSM_RECORD is internal to compute lsm/events");
   nevery = 1;
   if (!faces) return;
+  directions = domain->dimension == 3 ? 2 : 1;
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
 }
@@ -45,7 +46,7 @@ FixLSMRecord::~FixLSMRecord()
 
 void FixLSMRecord::begin_faces()
 {
-  for (int i = 0; i < atom->nlocal; i++) x_before[i] = atom->x[i][0];
+  for (int i = 0; i < atom->nlocal; i++) FixLSMRecord::set_arrays(i);
   since = update->ntimestep;
 }
 
@@ -54,45 +55,49 @@ std::vector<LSM::FaceDisplacement> FixLSMRecord::faces(int lower, int upper) con
   std::vector<LSM::FaceDisplacement> faces;
   const auto steps = static_cast<double>(update->ntimestep - since);
   if (steps <= 0.0) return faces;
-  const double period = domain->xperiodic ? domain->prd[0] : 0.0;
+  const auto moved = [this](int i, int direction) {
+    const int d = 2 * direction;
+    const double more = atom->x[i][d] - x_before[directions * i + direction];
+    return domain->periodicity[d] ? more - domain->prd[d] * std::round(more / domain->prd[d])
+                                  : more;
+  };
   for (int i = 0; i < atom->nlocal; i++) {
     const bool above = atom->mask[i] & upper;
     if (!above && !(atom->mask[i] & lower)) continue;
-    double d = atom->x[i][0] - x_before[i];
-    if (period > 0.0) d -= period * std::round(d / period);
-    faces.push_back({atom->x[i][0] - 0.5 * d, d, steps, above});
+    const double d = moved(i, 0), e = directions == 2 ? moved(i, 1) : 0.0;
+    faces.push_back({atom->x[i][0] - 0.5 * d, d, steps, above, atom->x[i][2] - 0.5 * e, e});
   }
   return faces;
 }
 
 void FixLSMRecord::grow_arrays(int nmax)
 {
-  memory->grow(x_before, nmax, "lsm/events:x_before");
+  memory->grow(x_before, directions * nmax, "lsm/events:x_before");
 }
 
 void FixLSMRecord::copy_arrays(int i, int j, int)
 {
-  x_before[j] = x_before[i];
+  for (int n = 0; n < directions; n++) x_before[directions * j + n] = x_before[directions * i + n];
 }
 
 void FixLSMRecord::set_arrays(int i)
 {
-  x_before[i] = atom->x[i][0];
+  for (int n = 0; n < directions; n++) x_before[directions * i + n] = atom->x[i][2 * n];
 }
 
 int FixLSMRecord::pack_exchange(int i, double *buf)
 {
-  buf[0] = x_before[i];
-  return 1;
+  for (int n = 0; n < directions; n++) buf[n] = x_before[directions * i + n];
+  return directions;
 }
 
 int FixLSMRecord::unpack_exchange(int i, double *buf)
 {
-  x_before[i] = buf[0];
-  return 1;
+  for (int n = 0; n < directions; n++) x_before[directions * i + n] = buf[n];
+  return directions;
 }
 
 double FixLSMRecord::memory_usage()
 {
-  return x_before ? static_cast<double>(atom->nmax) * sizeof(double) : 0.0;
+  return x_before ? static_cast<double>(atom->nmax) * directions * sizeof(double) : 0.0;
 }

@@ -56,8 +56,10 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
       saved_state;    // state of the compute in the last restart file, read or written
 
  private:
-  double *x_before = nullptr;    // stored x of each particle; null if the faces are not needed
-  bigint since = -1;             // step in which it was stored
+  // stored x of each particle, in three dimensions followed by z; null if the faces are not needed
+  double *x_before = nullptr;
+  int directions = 1;    // numbers of a particle
+  bigint since = -1;     // step in which it was stored
 };
 
 }    // namespace LAMMPS_NS

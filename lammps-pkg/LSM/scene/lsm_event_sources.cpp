@@ -76,9 +76,6 @@ void LSMEventSources::find(bool ledger)
   if (!links_ && contacts.empty())
     error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                       "lsm/friction");
-  if (settings_.records_slip() && domain->dimension != 2)
-    error->all(FLERR, "Compute lsm/events {} needs a 2-dimensional simulation (dimension 2)",
-               settings_.asked_by());
   if (settings_.records_slip() && !force->pair_match("lsm/friction", 1))
     error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", settings_.asked_by());
 
@@ -154,6 +151,9 @@ void LSMEventSources::find_driving(LSM::EventSettings &settings) const
   if (plates_ && plates_->driving_velocity() < 0.0) settings.forward = -1.0;
   if (settings.finds_ruptures()) find_velocity(settings);
   if (settings.modulus > 0.0) return;
+  if (domain->dimension == 3)
+    error->all(FLERR, "Compute lsm/events {} needs the keyword modulus in three dimensions",
+               settings.asked_by());
   if (!links_)
     error->all(FLERR, "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
                settings.asked_by());

@@ -2,6 +2,7 @@
 
 #include "lsm_event_options.h"
 
+#include "domain.h"
 #include "lsm_keyword_reader.h"
 
 #include <cstring>
@@ -22,6 +23,12 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
   if (emergency_file.find_first_of("*%") != std::string::npos)
     in.stop("emergency is " + emergency_file +
             ", but must be the name of one file, without * and %");
+  if (lmp->domain->dimension == 3)
+    for (const char *of_lines : {"location", "fraction"})
+      if (in.has(of_lines))
+        in.stop(std::string("keyword ") + of_lines +
+                " needs dimension 2: drops are located along a line; use ruptures in three "
+                "dimensions");
   if (!events.finds_ruptures())
     for (const char *of_ruptures :
          {"slipping", "driving", "gap", "pause", "minwork", "quiet", "unfinished"})
