@@ -44,7 +44,7 @@ Figure densities(const std::vector<EventTable> &tables, RuptureQuantity quantity
 
 class Rupture : public CatalogueAnalysis {
   std::string history_;
-  double p_speed_ = 2.12, s_speed_ = 1.22;
+  double p_speed_ = 2.12, s_speed_ = 1.22, arrival_ = 0.0;
 
   const char *help() const override {
     return "Draws the ruptures of faults † (catalogues of compute lsm/events with "
@@ -68,6 +68,11 @@ class Rupture : public CatalogueAnalysis {
               "Slip history of the first catalogue's run; --from and --to select a part",
               kind("FILE"), shown("none"));
     add_wave_speeds(group, p_speed_, s_speed_);
+    group.add(
+        "--arrival", arrival_,
+        "Slip velocity above which the rupture has come to a place of a plane, for the map of "
+        "times",
+        positive(), shown("that above which places slip"));
   }
 
   std::vector<std::string> inputs() const override {
@@ -102,7 +107,9 @@ class Rupture : public CatalogueAnalysis {
     for (const Event &e : catalogue.details)
       if (e.t_start >= catalogues.from_time && e.t_end <= catalogues.to_time) inside.push_back(e);
     const Event event = largest_in(inside, catalogue.path);
-    const SlipMap map = with_path(history_, [&] { return slip_map(history, event); });
+    const SlipMap map = with_path(history_, [&] {
+      return slip_map(history, event, arrival_ > 0.0 ? arrival_ : history.info().ruptures.velocity);
+    });
     Table lines("time,x1,z1,x2,z2");
     Figure time = rupture_time_figure(map, event, lines);
     results.figure("", slip_map_figure(map, event), "-slip");

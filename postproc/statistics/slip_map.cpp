@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace LSM::postproc {
 
 namespace {
@@ -20,8 +22,13 @@ FaultAxis part_of(const FaultAxis &all, double begin, double length) {
 /// Adds records to a map, one after the other.
 class MapMaker {
  public:
-  MapMaker(SlipMap &map, const SlipHistoryInfo &info, const Event &event)
-      : map_(map), info_(info), begin_(event.t_start), slip_(size(map)), rates_(size(map)) {
+  MapMaker(SlipMap &map, const SlipHistoryInfo &info, const Event &event, double least)
+      : map_(map),
+        info_(info),
+        begin_(event.t_start),
+        least_(least),
+        slip_(size(map)),
+        rates_(size(map)) {
     map.slip.assign(slip_.size(), 0.0);
     map.time.assign(slip_.size(), std::numeric_limits<double>::quiet_NaN());
     map.rate = map.slip;
@@ -46,12 +53,12 @@ class MapMaker {
       slip_[n].dip += more.dip;
       sum.strike += more.strike;
       sum.dip += more.dip;
-      const double rate = more.size() / (to - from), before = rates_[n],
-                   least = info_.ruptures.velocity;
-      if (std::isnan(map_.time[n]) && rate > least)
-        map_.time[n] = std::max(
-            0.0, before < least ? middle_ + (middle - middle_) * (least - before) / (rate - before)
-                                : middle);
+      const double rate = more.size() / (to - from), before = rates_[n];
+      if (std::isnan(map_.time[n]) && rate > least_)
+        map_.time[n] =
+            std::max(0.0, before < least_
+                              ? middle_ + (middle - middle_) * (least_ - before) / (rate - before)
+                              : middle);
       map_.rate[n] = std::max(map_.rate[n], rate);
       map_.slip[n] = slip_[n].size();
       rates_[n] = rate;
@@ -68,7 +75,8 @@ class MapMaker {
 
   SlipMap &map_;
   const SlipHistoryInfo &info_;
-  double begin_, middle_ = 0.0;  // middle_: of the record before
+  double begin_, least_;
+  double middle_ = 0.0;  // of the record before
   std::vector<FaultVector> slip_;
   std::vector<double> rates_;       // in the record before
   std::vector<std::size_t> cells_;  // numbers in the history
@@ -76,7 +84,7 @@ class MapMaker {
 
 }  // namespace
 
-SlipMap slip_map(SlipHistoryReader &reader, const Event &event) {
+SlipMap slip_map(SlipHistoryReader &reader, const Event &event, double least) {
   const SlipHistoryInfo &info = reader.info();
   SlipMap map{part_of(info.grid.strike(), event.x_begin, event.rupture_length),
               part_of(info.grid.dip(), event.z_begin, event.rupture_width),
@@ -89,7 +97,7 @@ SlipMap slip_map(SlipHistoryReader &reader, const Event &event) {
   // A hypocentre across the seam is as far from the begin as its row is long.
   if (map.x_first < map.strike.begin) map.x_first += info.grid.strike().length();
   if (map.z_first < map.dip.begin) map.z_first += info.grid.dip().length();
-  MapMaker maker(map, info, event);
+  MapMaker maker(map, info, event, least);
   std::int64_t end = 0;
   for (SlipRecord record; reader.next(record) && record.step_end <= event.step_end;) {
     if (record.step_begin < event.step_start || record.step_begin == record.step_end) continue;
@@ -99,6 +107,11 @@ SlipMap slip_map(SlipHistoryReader &reader, const Event &event) {
   if (map.moment.empty() || end != event.step_end)
     throw std::runtime_error("does not have all of rupture " + std::to_string(event.id) +
                              ", expected its slip until step " + std::to_string(event.step_end));
+  const double most = *std::max_element(map.rate.begin(), map.rate.end());
+  if (!(most > least))
+    throw std::runtime_error(
+        fmt::format("rupture {} slips at {:.6g} at most, expected an arrival below it, not {:.6g}",
+                    event.id, most, least));
   return map;
 }
 

@@ -24,9 +24,9 @@ struct SlipMap {
   FaultAxis strike, dip;     ///< of the rectangle; on a ring it may continue across the seam
   double x_first, z_first;   ///< hypocentre
   std::vector<double> slip;  ///< length of the slip of each cell, from begin to end
-  /// Time since the rupture began at which the slip velocity of a cell exceeds that of the header
-  /// for the first time, linear between the middles of the records, hence up to 1.5 records early
-  /// where it jumps; NaN where it never does.
+  /// Time since the rupture began at which the slip velocity of a cell exceeds the least one for
+  /// the first time, linear between the middles of the records, hence up to 1.5 records early where
+  /// it jumps; NaN where it never does.
   std::vector<double> time;
   std::vector<double> rate;  ///< largest slip velocity of a cell in a record
   std::vector<MomentRate> moment;
@@ -37,9 +37,10 @@ struct SlipMap {
 
 /// Reads the records of a rupture from the history of its plane.
 /// \param event a rupture of the same run
+/// \param least slip velocity above which it has come to a cell
 /// \throws FileError if the history cannot be read
-/// \throws std::runtime_error if it does not have all of the rupture
-SlipMap slip_map(SlipHistoryReader &reader, const Event &event);
+/// \throws std::runtime_error if it does not have all of the rupture, or this slips nowhere as fast
+SlipMap slip_map(SlipHistoryReader &reader, const Event &event, double least);
 
 /// A piece of the line on which a map has one value.
 struct ContourPiece {

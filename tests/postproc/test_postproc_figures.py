@@ -591,6 +591,12 @@ def test_rupture_on_a_plane(do, no):
     assert time[0] == pytest.approx(0.05) and rate.sum() * 0.1 == pytest.approx(0.4 * 0.25 * 0.5 * 231, rel=1e-6)
     for said_of in "m-time.svg", "m-slip.svg":
         said(said_of, "Along strike", "Along dip, upwards")
+    # All cells slip at 0.25.
+    do("rupture p.csv --history p.slip.bin --arrival 0.24 --no-picture -o fast")
+    assert (read("fast-time.csv")[2] > read("m-time.csv")[2]).all()
+    no("p.slip.bin: rupture 1 slips at 0.25 at most, expected an arrival below it, not 0.26",
+       "rupture p.csv --history p.slip.bin --arrival 0.26 -o x")
+    no("--arrival", "rupture p.csv --history p.slip.bin --arrival 0 -o x")
     # What does not belong together is refused.
     write_history("line.slip.bin", steps, np.diff(done[:, :, 5], axis=0, prepend=0), dt=0.1, bin=0.5)
     no("p.csv: ruptures on a plane, expected its slip history, found that of a line", "rupture p.csv --history line.slip.bin -o x")

@@ -232,7 +232,7 @@ class RuptureMaps : public unit::Files {
     const std::vector<Event> events = crack.record(file());
     EXPECT_EQ(events.size(), 1U);
     SlipHistoryReader reader = open_history(file(), false);
-    return slip_map(reader, events.at(0));
+    return slip_map(reader, events.at(0), crack.settings().velocity);
   }
 };
 
