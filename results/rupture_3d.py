@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from catalogues import draw, lsm, numbers_in, run, write_table
-from rupture_benchmark import ARRIVED, arrival, misfit, report, same_place, tick
+from rupture_benchmark import ARRIVED, arrival, misfit, report, same_place, summary, tick  # noqa: F401
 
 COLUMNS = ["x", "z", "t", "slip", "slip_rate", "slip_dip"]
 SHOWN = [(0, -7500), (4500, -7500), (-12000, -7500), (4500, 0), (12000, 0)]  # those of TPV5 that differ most from each other

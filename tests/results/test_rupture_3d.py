@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """rupture_3d.py: slip of a plane at places by hand, what is refused, and the numbers of the page."""
+import csv
 import sys
 
 import numpy as np
 import pytest
-from data_files import rows, write_history
+from data_files import write_history
 from programs import SOURCE, Program, refused, run
 
 RESULTS = SOURCE / "results"
@@ -15,8 +16,13 @@ SCRIPT = Program("rupture_3d.py", sys.executable, RESULTS / "rupture_3d.py")
 HEAD = dict(x0=-4, z0=-4, bin=2, bin_dip=2, dt=0.1, scale=0.01)
 
 
+def stations(path="out-stations.csv"):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def front(path):
-    """A rupture from the middle of a plane of 4 by 2 bins of 2: slip rate is 3 from the time |x| + 1 + y on, for 2."""
+    """A rupture from the middle of a plane of 4 by 2 bins of 2: slip rate is 3 for 2, from the time |x| on, or 1 later in the lower row."""
     steps = np.arange(0, 101)
     slip = np.zeros((len(steps), 4, 2, 2))
     for n, x in enumerate((-3, -1, 1, 3)):
@@ -42,7 +48,7 @@ def test_the_same_rupture(work):
     reference(work / "same.csv")
     out = run(SCRIPT, "a.slip.bin --reference same.csv -o out --no-picture").out
     assert "spacing 2, against boundary integral" in out
-    table = rows("out-stations.csv")
+    table = stations()
     assert [float(row["end_slip"]) for row in table] == pytest.approx([6, 6, 6], rel=1e-6)
     assert [float(row["end_dip"]) for row in table] == pytest.approx([1, 1, 1], rel=1e-6)
     assert all(abs(float(row["arrival"]) - float(row["reference_arrival"])) < 0.06 for row in table)
@@ -55,7 +61,7 @@ def test_misfits_by_hand(work):
     front("a.slip.bin")
     reference(work / "more.csv", factor=1.25, late=0.5)
     run(SCRIPT, "a.slip.bin --reference more.csv -o out --no-picture")
-    for row in rows("out-stations.csv"):
+    for row in stations():
         assert float(row["arrival"]) - float(row["reference_arrival"]) == pytest.approx(-0.5, abs=0.08)
         assert float(row["end_slip"]) / float(row["reference_end_slip"]) == pytest.approx(0.8, rel=1e-4)
 
@@ -70,3 +76,17 @@ def test_what_is_wrong_is_named(work):
                        ("x,z,t,slip,slip_rate,slip_dip\n99,-1,0,0,0,0\n99,-1,1,1,1,0\n", "no slip at 99, -1, expected a place of the plane")):
         (work / "b.csv").write_text(text)
         refused(SCRIPT, "a.slip.bin --reference b.csv -o out --no-picture", said)
+
+
+def test_the_table_of_the_page():
+    """The published stations give the numbers of rupture-3d.md."""
+    table = stations(RESULTS / "rupture_3d-stations.csv")
+    page = (RESULTS / "rupture-3d.md").read_text()
+    for run, arrival, slip in (("500 m", "0.645", "1.1; 2.1"), ("300 m", "0.153", "1.5; 2.1"), ("200 m", "0.073", "1.8; 2.5"), ("150 m", "0.075",
+                                                                                                                                None)):
+        some = [{key: value if key in ("run", "reference") else float(value) for key, value in row.items()} for row in table if row["run"] == run]
+        assert len(some) == 10
+        s = rupture_3d.summary(some)
+        assert f"{s['arrival']:.3f}" == arrival and f" {arrival} " in page
+        if slip:
+            assert f"{100 * s['slip']:.1f}; {100 * s['slip_max']:.1f}" == slip and f" {slip} " in page
