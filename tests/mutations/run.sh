@@ -48,7 +48,7 @@ done
 apply() {
   perl -0777 -e '
     my ($name, $folder, $file, $from, $to) = @ARGV;
-    $from =~ s/\\n/\n/g;
+    s/\\n/\n/g for $from, $to;
     open(my $in, "<", "$folder/$file") or die "$name: there is no file $file\n";
     my $text = <$in>;
     my $at = index($text, $from);
