@@ -45,7 +45,7 @@ for part; do
       common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
-      "$postproc" intervals damping/fault_*_4.catalogue.csv.xz "${common[@]}" --shuffles 0 -o "$new/damping_times"
+      "$postproc" intervals damping/fault_{120,240,480,945}_4.catalogue.csv.xz "${common[@]}" --shuffles 0 -o "$new/damping_times"
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
@@ -56,7 +56,8 @@ for part; do
       for name in fig14_fault_intervals fig15_slider_intervals; do
         for kind in csv gp png table1.csv; do cp "$new/$name.$kind" .; done
       done
-      python3 ../inputs/studies/calibrate.py figure calibration/points.csv.xz calibration
+      python3 ../inputs/studies/calibrate.py posterior calibration/points.csv.xz calibration
+      python3 slip_or_exchange.py decides damping_decides damping/points.csv
       ;;
     run)
       # Runs the first command of the README; the pictures show its largest event.

@@ -7,7 +7,9 @@ slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
 slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
+slip_or_exchange.py motion OUT.csv RUN              kinetic energy by period and by radius of the disc, of the RUN.STEP.dump of extra=fault_dump
 slip_or_exchange.py figure OUT RUN FROM TO RUN FROM TO   a stretch of two runs: OUT.png and OUT.svg
+slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and impedance, of calibrate.py collect: OUT.png and OUT.svg
 
 RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
 For each event:
@@ -173,7 +175,36 @@ def switched(output, *runs):
     write_table(output, ["Events >= 1e-4 in 1000 time units from `begin` after the damping was changed"], rows)
 
 
-# ---- a picture
+# ---- which discs move
+
+PERIODS, RADII = (0.24, 0.5, 1, 2, 5, 10, 20, 100), (0.1, 0.12, 0.2, 0.4, 1.01)
+
+
+def motion(output, run):
+    frames = sorted(Path(run).parent.glob(f"{Path(run).name}.*.dump"))
+    if len(frames) < 2:
+        raise ValueError(f"{run}.STEP.dump: {len(frames)} files, expected at least two")
+    columns = [np.array(frame.read_text().split("vx vy", 1)[1].split(), float).reshape(-1, 8) for frame in frames]
+    steps = [int(frame.name.split(".")[-2]) for frame in frames]
+    dt = (steps[1] - steps[0]) * float(lsm.read_catalogue(f"{run}.catalogue.csv").header["dt"])
+    radius, velocity = columns[0][:, 5], np.array([frame[:, 6:8] for frame in columns])
+    mass = radius**2
+    power = np.abs(np.fft.rfft((velocity - velocity.mean(axis=0)) * np.hanning(len(frames))[:, None, None], axis=0))**2
+    energy = power.sum(axis=2) * mass
+    period = 1 / np.maximum(np.fft.rfftfreq(len(frames), dt), 1e-9)
+    rows = []
+    for low, high in zip(PERIODS, PERIODS[1:]):
+        of = energy[(period >= low) & (period < high)].sum(axis=0)
+        rows.append(dict(shortest=low, longest=high, share=of.sum() / energy.sum(), largest_disc=of.max() / of.sum()))
+        rows[-1] |= {f"to_{b:g}": of[(radius >= a) & (radius < b)].sum() / of.sum() for a, b in zip(RADII, RADII[1:])}
+    rows.append(dict(shortest="mass", longest="", share=1.0, largest_disc=mass.max() / mass.sum()))
+    rows[-1] |= {f"to_{b:g}": mass[(radius >= a) & (radius < b)].sum() / mass.sum() for a, b in zip(RADII, RADII[1:])}
+    write_table(output, [
+        f"Kinetic energy by period, {len(frames)} frames; to_R: share of discs up to this radius; last row: of the mass (slip_or_exchange.py motion)"
+    ], rows)
+
+
+# ---- pictures
 
 
 def stretch(run, begin, end):
@@ -209,8 +240,33 @@ def figure(base, *stretches):
     draw(base, script + "unset multiplot", 1100, 760)
 
 
+def decides(base, points):
+    """Lines over the viscosity, one for each impedance: mean of the packings at length 120, with their deviation, and length 480."""
+    with open(points) as lines:
+        rows = [row for row in rows_of(lines) if row["point"].startswith("d_") and row["stopped"] == "no" and float(row["memory"]) == MEMORY]
+    script = "set multiplot layout 2,2\nset logscale x\nset xrange [3e-4:0.08]\nset xlabel 'viscosity'\nset datafile separator\n"
+    impedances = sorted({row["impedance"] for row in rows}, key=float)
+    for n, (label, key, paper, how) in enumerate(
+        (("mean time between events", "mean_time_0.0001", 15.2, "set logscale y"), ("gamma of all times", "gamma_0.0001", 0.995, "unset logscale y"),
+         ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", 1.07, ""), ("excess of friction, events of 10^{-3} to 0.1", "excess", None, ""))):
+        lines, data = [f"{paper} w l dt 2 lc rgb '#888888' t 'paper'"] if paper else [], ""
+        for colour, impedance in zip((2, 8, 6), impedances):
+            for length, point in (("120", 7), ("480", 6)):
+                at = {}
+                for row in rows:
+                    if row["impedance"] == impedance and row["length"] == length and row[key]:
+                        at.setdefault(float(row["viscosity"]), []).append(float(row[key]))
+                if at:
+                    lines.append(
+                        f"'-' w yerrorlines lc {colour} pt {point} {'dt 3 ' if length == '480' else ''}t 'impedance {impedance}, length {length}'")
+                    data += "".join(f"{x:g} {np.mean(y):.5g} {np.std(y, ddof=1) if len(y) > 1 else 0:.5g}\n" for x, y in sorted(at.items())) + "e\n"
+        script += f"{how}\nset {'' if n == 0 else 'no'}key\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}"
+    draw(base, script.replace("set nokey", "unset key") + "unset multiplot", 1100, 760)
+
+
 if __name__ == "__main__":
-    commands = dict(events=events, kinds=kinds, surrogates=surrogates, energies=energies, switched=switched, figure=figure)
+    commands = dict(motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies, switched=switched,
+                    figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

@@ -34,9 +34,11 @@ from text_tables import rows_of  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
+DEFAULT = FOLDER / "calibration/default.csv.xz"  # points from which the default was chosen
 CAMPAIGN, VALIDATION, DAMPING = FOLDER / "campaign", FOLDER / "validation", FOLDER / "damping"
 LOADING = str(calibrate.LOADING)
-RATTLING = 0.6  # events that follow another faster are presumably single small discs (their period is 0.28)
+HALF_STEP_UNTIL = "40100"  # of the run at length 480 with half the time step
+BURST = 0.6  # events that follow another faster are those of short waves
 SIZES = ("1e-4", "1e-3", "1e-2")
 EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
 
@@ -86,7 +88,7 @@ def summaries(folder=CAMPAIGN):
 @functools.cache
 def use(length, seed):
     """Whether the values of the fault were fitted to this packing, or it is predicted."""
-    return "fitted" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
+    return "fitted" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(DEFAULT)) else "predicted"
 
 
 def by_length(rows=None):
@@ -141,20 +143,30 @@ def over(rows, key):
 # ---- the fault
 
 
-def judged(rows, value, off, tolerance):
+def judged(rows, statement):
     """Mean and deviation of a statement over packings, in bold if it misses the tolerance by two standard errors."""
-    values = [x for x in map(value, rows) if math.isfinite(x)] or [math.nan]
+    values = [x for x in map(statement.value, rows) if math.isfinite(x)] or [math.nan]
     mean = statistics.mean(values)
     slack = 2 * statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
-    met = math.isnan(mean) or min(off(x) for x in (mean - slack, mean, mean + slack) if x > 0 or mean <= 0) <= tolerance
+    met = math.isnan(mean) or min(statement.deviation_of(x) for x in (mean - slack, mean, mean + slack) if x > 0 or mean <= 0) <= 1
     return spread(values) if met else f"**{spread(values)}**"
 
 
 def paper_table():
-    """Each statement of the calibration at each length of the campaign."""
-    groups = by_length()
-    out = [[text, *(judged(rows, value, off, tolerance) for rows in groups.values())] for _, text, value, off, tolerance in calibrate.STATEMENTS]
-    return table(["statement of the paper, or †", *groups], out + [["packings", *(str(len(rows)) for rows in groups.values())]])
+    """Each statement for both faults, those whose events are slip first."""
+    default, paper = (grouped(of_all_times(folder), lambda row: row["length"]) for folder in (CAMPAIGN, DAMPING))
+    groups = {f"default, {length}": default[length] for length in ("120", "480", "1890")}
+    groups |= {f"preset paper, {length}": paper[length] for length in ("120", "480")}
+    slip = {}
+    for row in read(DAMPING / "kinds.csv"):
+        if float(row["smallest"]) in (0.001, 0.01):
+            name = f"{'default' if row['run'].startswith('damped') else 'preset paper'}, {row['length']}"
+            slip.setdefault(name, []).append((float(row["events"]), float(row["slip"])))
+    shares = {name: sum(n * x for n, x in some) / sum(n for n, _ in some) for name, some in slip.items()}
+    out = [["share of events of 0.001 to 0.1 that are slip †", *(shown(shares.get(name)) for name in groups)]]
+    out += [[one.text, *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
+    return table(["statement of the paper, or †", *groups],
+                 [row for row in out if set(row[1:]) != {"-"}] + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
 
 def scaling_of(kind, least, folder=CAMPAIGN):
@@ -308,19 +320,86 @@ def stretches_table():
 # ---- damping
 
 
-def preset_paper_table():
-    """The catalogues of preset paper, none of whose packings was used to choose its values."""
-    paths = [path for some in faults(folder=DAMPING).values() for path in some]
+@functools.cache
+def of_all_times(folder):
+    """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
+    paths = [path for some in faults(folder=folder).values() for path in some]
     all_times = rows_of(run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines())
     rows = []
-    for path, row, one in zip(paths, summaries(DAMPING), all_times):
+    for path, row, one in zip(paths, summaries(folder), all_times):
         starts = [number(event, "t_start") for event in read(path)]
-        apart = 1 + sum(later - start >= RATTLING for start, later in zip(starts, starts[1:]))
-        rows.append({**row, "gamma_all": one["gamma_0.0001"], "apart": str((starts[-1] - starts[0]) / apart)})
+        apart = 1 + sum(later - start >= BURST for start, later in zip(starts, starts[1:]))
+        rows.append({
+            **row, "gamma_longer": row["gamma_0.0001"], **{key: one[key]
+                                                           for key in ("gamma_0.0001", "gamma_error_0.0001", "B_0.0001")}, "apart": str(
+                (starts[-1] - starts[0]) / apart)
+        })
+    return rows
+
+
+def preset_paper_table():
+    """The catalogues of preset paper, none of whose packings was used to choose its values."""
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
     columns |= {"in each decade": lambda row: ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])}
-    columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_all'))}, {shown(number(row, 'gamma_0.0001'))}"}
-    return study_table("", columns | {"one event in": "mean_time_0.0001", "without rattling": "apart"}, rows)
+    columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_0.0001'))}, {shown(number(row, 'gamma_longer'))}"}
+    columns |= {"B of all times": "B_0.0001"}
+    columns |= {"one event in, without those within 0.6": lambda row: f"{shown(number(row, 'mean_time_0.0001'))}, {shown(number(row, 'apart'))}"}
+    return study_table("", columns, of_all_times(DAMPING))
+
+
+def short_waves_table():
+    """The fault of length 120 with retardation of links."""
+    rows = [row for row in read(DAMPING / "points.csv") if row["point"].startswith("t_") and row["memory"] == "1" and row["retardation"] != "0"]
+    rows = [{**next(row for row in of_all_times(DAMPING) if row["length"] == "120"), "retardation": "0"}, *rows]
+    columns = {"retardation": lambda row: f"{float(row['retardation']):g}", "one event in": "mean_time_0.0001"}
+    columns |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "gamma of all times": "gamma_0.0001", "B": "B_0.0001"}
+    return study_table("", columns, sorted(rows, key=lambda row: float(row["retardation"])))
+
+
+def half_step_table():
+    """The same with half the time step; at length 480 both from the same state on."""
+    out, window = [], ("--from", "37300", "--to", HALF_STEP_UNTIL)
+    for name, length, words in (("fault_120_4", "120", ("--from", LOADING)), ("t_120_0_0.015_4", "120", ("--from", LOADING)),
+                                ("fault_480_4", "480", window), ("half_480_4", "480", window)):
+        said = run("summary", DAMPING / f"{name}.catalogue.csv.xz", *words, "--shortest", 0, "--threshold", "1e-4", "--range", "1e-4:1e-1",
+                   "--parameter", "dt")
+        row = next(rows_of(said.splitlines()))
+        out.append([
+            f"{length}, {float(row['dt']):g}", row["events_0.0001"],
+            *(of(row, key) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"))
+        ])
+    return table(["length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
+
+
+def motion_table():
+    """Kinetic energy by period and by radius of the disc."""
+    rows, retarded = read(DAMPING / "motion.csv"), {row["shortest"]: row for row in read(DAMPING / "motion_retarded.csv")}
+
+    def cells(row):
+        return [
+            shown(100 * number(row, "share")),
+            shown(100 * number(retarded[row["shortest"]], "share")),
+            *(f"{100 * sum(number(row, f'to_{r}') for r in some):.0f}" for some in (("0.12",), ("0.2", "0.4"))),
+            shown(100 * number(row, "largest_disc"))
+        ]
+
+    return table(
+        ["period", "% of the kinetic energy", "with retardation 0.001", "% of the first in discs up to 0.12", "0.12 to 0.4", "in one disc, at most"],
+        [["all: mass" if row["shortest"] == "mass" else f"{float(row['shortest']):.2g} to {row['longest']}", *cells(row)] for row in rows])
+
+
+def width_table():
+    """Blocks half and twice as wide, packing by packing."""
+    rows = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"]
+    rows = [row for row in rows if row["point"].startswith(("w_120", "d_120_5e-4_0_"))]
+    groups = grouped(sorted(rows, key=lambda row: (float(row["width"]), row["seed"])), lambda row: row["width"])
+
+    def cell(rows, key):
+        return ", ".join(shown(number(row, key)) for row in rows)
+
+    keys = {"one event in": "mean_time_0.0001", "B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001"}
+    keys |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
+    return table(["width", *keys], [[width, *(cell(rows, key) for key in keys.values())] for width, rows in groups.items()])
 
 
 def kinds_table():
@@ -357,32 +436,56 @@ def switched_table():
 
 # ---- calibration
 
-VARIED = ("length", "seed", "stress", "viscosity", "kt", "impedance", "hold", "dt", "memory")
-
 
 def statements_table():
-    rows, stopped = calibrate.points(POINTS)
-    accepted, ordered = calibrate.nearest(rows)
-    out = []
-    for n, (name, text, _, _, tolerance) in enumerate(calibrate.STATEMENTS):
-        met = {row["point"] for row in rows if calibrate.deviations(row)[n] <= 1.0}
-        out.append([name, text, f"{tolerance:.2g}", str(len(met)), str(sum(calibrate.deviations(row)[n] <= 1.0 for row in accepted))])
-    head = ["fitted", "statement", "tolerance", f"of {len(ordered)} points meet it", f"of the {len(accepted)} accepted"]
-    return table(head, out) + (f"\n\n{stopped} more points stopped, as links were strained by half their length." if stopped else "")
+    """What points of the calibration and samples of its posterior meet."""
+    found, rows = {row["statement"]: row for row in read(FOLDER / "calibration.statements.csv")}, calibrate.completed(POINTS)
+
+    def shares(row, length):
+        return f"{100 * number(row, f'prior_{length}'):.0f}, {100 * number(row, f'posterior_{length}'):.0f}" if row.get(f"prior_{length}") else "-"
+
+    def points(one):
+        return len({row["point"] for row in rows if one.deviation(row) <= 1})
+
+    out = [[
+        one.text, f"{one.tolerance:.2g}{' (ln)' if one.log else ''}",
+        str(points(one)), *(shares(found[one.name], length) for length in ("120", "480"))
+    ] for one in calibrate.STATEMENTS]
+    head = ["fitted, but for †", "tolerance", f"of {len({row['point'] for row in rows})} points", "% of prior, posterior at 120", "at 480"]
+    stopped = sum(row["stopped"] == "yes" for row in read(POINTS))
+    return table(head, out) + (f"\n\nMore that stopped, as a link was strained by half its length: {stopped}." if stopped else "")
 
 
-def accepted_table():
-    """The nearest points, those at other lengths, and the chosen values, with the memory of the campaign."""
-    rows, memory = [row for row in read(POINTS) if row["stopped"] == "no"], float(summaries()[0]["memory"])
-    longer = [
-        calibrate.nearest([row for row in rows if row["point"] == name], 1)[0][0] for name in sorted({row["point"]
-                                                                                                      for row in rows}) if name[0] == "l"
-    ]
-    chosen = [row for row in rows if row["point"][0] == "c" and math.isclose(float(row["memory"]), memory, rel_tol=1e-3)]
-    columns = {"point (fitted)": lambda row: row["point"]} | {key: lambda row, key=key: row[key] for key in VARIED}
-    columns |= {name: lambda row, value=value: shown(value(row)) for name, _, value, *_ in calibrate.STATEMENTS}
-    columns |= {"distance": lambda row: shown(calibrate.distance(row))}
-    return study_table("", columns, [*calibrate.nearest(calibrate.points(POINTS)[0])[0], *longer, *chosen])
+def surrogate_table():
+    """Error of the surrogate at points that it was not given, beside what these differ by."""
+    rows = [row for row in read(FOLDER / "calibration.statements.csv") if row["left_out"]]
+    units = {one.name: "ln of it" if one.log else "" for one in calibrate.STATEMENTS}
+    return table(["number", "left out", "standard deviation of the points"],
+                 [[", ".join(filter(None, (row["statement"], units[row["statement"]]))), row["left_out"], row["spread"]] for row in rows])
+
+
+def nearest_table():
+    """The points nearest to what is printed, at each length."""
+    rows, out = calibrate.nearest(calibrate.completed(POINTS)), []
+    values = {one.name: one for one in calibrate.STATEMENTS}
+
+    def text(row, *names):
+        return ", ".join(shown(values[name].value(row)) for name in names)
+
+    slip = [row for row in rows if values["slip"].deviation(row) <= 0]
+    for row in [row for row in rows if row["length"] == "120"][:4] + [row for row in rows if row["length"] == "480"][:3] + slip[:3]:
+        silent, words = calibrate.defaults(), []
+        for key in ("stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "mass", "contacts", "seeds", "loose", "memory"):
+            if row[key] and row[key] != silent.get(key):
+                words.append(f"{key} {row[key]}")
+        out.append([
+            f"{row['point']}, {row['length']}", ", ".join(words),
+            text(row, "exponent", "decades"),
+            text(row, "gamma", "B"),
+            text(row, "slip"),
+            shown(calibrate.distance(row))
+        ])
+    return table(["fitted: point, length", "values", "exponent, rms of decades", "gamma, B", "excess †", "distance"], out)
 
 
 def slider_table():
@@ -391,11 +494,11 @@ def slider_table():
     groups = grouped(rows, lambda row: tuple(row[key] for key in calibrate.SLIDER_KEYS))
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
-    met = [sum(calibrate.deviations(row, statements)[n] <= 1.0 for row in rows) for n in range(len(statements))]
+    met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
     head = [f"fitted: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", "here", "agrees at"]
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
-    return table(head, [blocks] + [[name, text, ", ".join(shown(value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
-                                   for (name, text, value, *_), n in zip(statements, met)])
+    return table(head, [blocks] + [[one.name, one.text, ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
+                                   for one, n in zip(statements, met)])
 
 
 def ground_table():

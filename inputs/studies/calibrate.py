@@ -2,33 +2,40 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which values of what the paper does not print give the statements that it does.
 
-calibrate.py collect BIN OUT.csv FOLDER...   numbers of the runs of a study, one row for each run and memory of the picker; other
-                                             rows that OUT.csv has stay
+calibrate.py propose OUT.csv LENGTH N [POINTS.csv]   adds N points to the table of a study, from the prior or, with the numbers of points that
+                                             were run, a quarter from it and the others from the posterior of a surrogate
+calibrate.py collect BIN POINTS.csv FOLDER...   numbers of runs of a study, one row for each run and memory of the picker; rows of other runs
+                                             that the file has stay
+calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, what they predict, OUT.statements.csv, and OUT.png and .svg
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up
-calibrate.py figure POINTS.csv OUT           distances over what is not printed: OUT.png and OUT.svg
 
 results/tables.py makes the tables of results/calibration.md of the same statements.
 
-Approximate Bayesian computation by rejection (Pritchard et al. 1999): points of the prior are run, each statement gives a
-deviation in units of its tolerance, the distance is their root mean square, and the points nearest to the paper are kept.
+Only statements that the paper prints count; those of our own (†) are reported beside them. Approximate Bayesian computation with a
+surrogate: each number is interpolated between the points that were run by a Gaussian process (Rasmussen & Williams 2006) with a length
+scale for each value, of which scikit-learn finds the likeliest. A set of values is as likely as the deviations of its predicted
+numbers from the paper's are, in units of the tolerance and of the surrogate's own error; it has to meet them at lengths 120 and 480.
 """
 import csv
 import json
 import lzma
 import math
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Callable, NamedTuple
 
 from text_tables import rows_of
 
 sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "results"))
 
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
-MEMORIES = (0.5, 1, 2)
+MEMORIES = (0.4, 0.7, 1, 1.6)
 LOADING = 8000  # time units that are left out: compression, and the first loading, in which PE rises
-SETTINGS = ("length", "seed", "stress", "viscosity", "kt", "impedance", "hold", "contacts", "mass", "dt", "steps")  # of a point
+SETTINGS = ("length", "width", "seed", "stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "mass", "contacts", "loose", "faces",
+            "seeds", "linkratio", "dt", "massstep", "steps")  # of a point
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
@@ -46,11 +53,6 @@ def defaults():
 
 def number(row, key):
     return float(row[key]) if row.get(key) else math.nan
-
-
-def outside(value, low, high):
-    """How far a value is from an interval; 0 within."""
-    return max(low - value, 0.0, value - high) if math.isfinite(value) else math.nan
 
 
 def decades(row):
@@ -81,46 +83,72 @@ WORDED = {
     "loading": "rise of PE between events over the work of the plates",
     "roll_off_power": "power d of s^-a exp(-(s/c)^d)",
     "roll_off_gain": "2 ln L of d = 1 over a power law without end",
-    "B": "B, delta 1",
-    "C": "C, delta 1",
 }
 
-# name, statement of the paper (or †), value of a row, its deviation, tolerance
+
+class Statement(NamedTuple):
+    """A number that has to be within an interval; its deviation is the distance to that in units of a tolerance."""
+    name: str
+    text: str  # with † if it is not the paper's
+    value: Callable
+    low: float
+    high: float
+    tolerance: float
+    log: bool = False  # of the number, the interval and the tolerance
+
+    def scaled(self, row):
+        return self.scale(self.value(row))
+
+    def scale(self, value):
+        return (math.log(value) if value > 0 else math.nan) if self.log else value
+
+    def interval(self):
+        return (math.log(self.low), math.log(self.high)) if self.log else (self.low, self.high)
+
+    def deviation(self, row):
+        return self.deviation_of(self.value(row))
+
+    def deviation_of(self, value):
+        """At most ten, which it is if the number cannot be had for lack of events."""
+        (low, high), value = self.interval(), self.scale(value)
+        return min(10.0, max(low - value, 0.0, value - high) / self.tolerance) if math.isfinite(value) else 10.0
+
+
+def of(key):
+    return lambda row: number(row, key)
+
+
+ANY = math.inf
 STATEMENTS = (
-    ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"), lambda v: abs(v - 1.07), 0.07),
-    ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
-    ("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"), lambda v: abs(v - 0.995), 0.1),
-    ("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next", memories,
-     lambda v: outside(math.log(v), math.log(12.5), math.log(100)), 0.3),
-    ("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time", lambda r: number(r, "in_events"),
-     lambda v: outside(v, 0.0, 0.33), 0.03),
-    ("locked", "the fault is locked between events: it slips there at less than half of the plates' velocity †", lambda r: number(r, "rate_between"),
-     lambda v: outside(v, 0.0, 0.5), 0.1),
-    ("loading", "PE rises there by loading: by more than half of the work of the plates †", lambda r: number(r, "loading"),
-     lambda v: outside(v, 0.5, math.inf), 0.1),
-    ("velocities", "the density of slip velocities falls all the way", lambda r: number(r, "rise"), lambda v: outside(v, 0.0, 1.0), 0.5),
-    ("neighbours", "slip at one contact mostly triggers its neighbours: less than half of the ruptures stay within one bin",
-     lambda r: number(r, "one_bin"), lambda v: outside(v, 0.0, 0.5), 0.1),
-    ("roll-off", "sizes roll off exponentially: 2 ln L over a power law without end above 3.84", lambda r: number(r, "roll_off_gain"),
-     lambda v: outside(v, 3.84, math.inf), 3.84),
-    ("waves", "P-waves run at 2.1", lambda r: WAVE_SPEED[r["mass"]], lambda v: abs(v - 2.12), 0.1),
-    ("steps", "events are resolved †: at most 2 % last 3 steps or less", lambda r: number(r, "brief"), lambda v: outside(v, 0.0, 0.02), 0.02),
-    ("swings", "events are slip †: few inter-event times are oscillations of the blocks", swings, lambda v: outside(v, 0.0, 0.02), 0.03),
+    Statement("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", of("exponent_1e-4:1e-1"), 1.07, 1.07, 0.07),
+    Statement("decades", "so in each of these decades (no second population)", decades, 0, 0, 0.3),
+    Statement("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", of("gamma_0.0001"), 0.995, 0.995, 0.1),
+    Statement("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next", memories, 12.5,
+              100, 0.3, True),
+    Statement("B", "B 15.21 time units", of("B_0.0001"), 15.21, 15.21, 0.2, True),
+    Statement("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time", of("in_events"), -ANY, 0.33, 0.03),
+    Statement("velocities", "the density of slip velocities falls all the way", of("rise"), -ANY, 1, 0.5),
+    Statement("neighbours", "slip at one contact mostly triggers its neighbours: less than half of the ruptures stay within one bin", of("one_bin"),
+              -ANY, 0.5, 0.1),
+    Statement("roll-off", "sizes roll off exponentially: 2 ln L over a power law without end above 3.84", of("roll_off_gain"), 3.84, ANY, 3.84),
+    Statement("waves", "P-waves run at 2.1", lambda r: WAVE_SPEED[r["mass"]], 2.12, 2.12, 0.1),
+    Statement("least squares", "gamma by least squares on the density †", of("gamma_squares"), 0.995, 0.995, 0.1),
+    Statement("locked", "the fault is locked between events: it slips there at less than half of the plates' velocity †", of("rate_between"), -ANY,
+              0.5, 0.1),
+    Statement("loading", "PE rises there by loading: by more than half of the work of the plates †", of("loading"), 0.5, ANY, 0.1),
+    Statement("steps", "events are resolved: at most 2 % last 3 steps or less †", of("brief"), -ANY, 0.02, 0.02),
+    Statement("swings", "few inter-event times are oscillations of the blocks †", swings, -ANY, 0.02, 0.03),
+    Statement("slip", "events of 0.001 to 0.1 are slip: friction takes up more than half of what the springs lose †", of("excess"), 0.5, ANY, 0.1),
 )
 
 
-def deviations(row, statements=STATEMENTS):
-    """Deviations in units of the tolerances; ten if a statement cannot be evaluated for lack of events."""
-    result = []
-    for name, _, value, off, tolerance in statements:
-        v = value(row)
-        z = off(v) / tolerance if math.isfinite(v) and not (name in ("B", "events") and v <= 0) else math.nan
-        result.append(min(z, 10.0) if math.isfinite(z) else 10.0)
-    return result
+def printed(statements=STATEMENTS):
+    return tuple(one for one in statements if "†" not in one.text)
 
 
-def distance(row, statements=STATEMENTS):
-    parts = deviations(row, statements)
+def distance(row, statements=None):
+    """Root mean square of the deviations from what is printed."""
+    parts = [one.deviation(row) for one in statements or printed()]
     return math.sqrt(sum(part * part for part in parts) / len(parts))
 
 
@@ -132,39 +160,133 @@ def read(path):
 
 # Statements about the block-slider, each of which is evaluated at each of the five lengths.
 SLIDER_STATEMENTS = (
-    ("events", "3000 to 5000 in 1e7 steps", lambda r: number(r, "events"), lambda v: outside(math.log(v), math.log(3000), math.log(5000)), 0.3),
-    ("small", "exponent 0.5 below size 1", lambda r: number(r, "exponent_1e-2:1"), lambda v: abs(v - 0.5), 0.1),
-    ("large", "exponent 1.0 above", lambda r: number(r, "exponent_1:1e2"), lambda v: abs(v - 1.0), 0.1),
-    ("gamma", "0.0", lambda r: number(r, "gamma"), abs, 0.1),
-    ("B", "100 (a factor of 2)", lambda r: number(r, "B"), lambda v: abs(math.log(v / 100)), math.log(2)),
-    ("C", "0.25", lambda r: number(r, "C"), lambda v: abs(v - 0.25), 0.05),
+    Statement("events", "3000 to 5000 in 1e7 steps", of("events"), 3000, 5000, 0.3, True),
+    Statement("small", "exponent 0.5 below size 1", of("exponent_1e-2:1"), 0.5, 0.5, 0.1),
+    Statement("large", "exponent 1.0 above", of("exponent_1:1e2"), 1, 1, 0.1),
+    Statement("gamma", "0.0", of("gamma"), 0, 0, 0.1),
+    Statement("B", "100 (a factor of 2)", of("B"), 100, 100, math.log(2), True),
+    Statement("C", "0.25", of("C"), 0.25, 0.25, 0.05),
 )
+
+# ---- prior
+
+
+class Value(NamedTuple):
+    """What the paper does not print: where a number of [0, 1] leads, and back to a coordinate of [0, 1] for the surrogate."""
+    low: float
+    high: float
+    log: bool = False
+    at_zero: float = 0.0  # share of the prior at zero (log) or at the low end
+    digits: int = 3
+
+    def text(self, u):
+        if u < self.at_zero:
+            return "0" if self.log else f"{self.low:g}"
+        v = (u - self.at_zero) / (1 - self.at_zero)
+        return f"{self.low * (self.high / self.low)**v if self.log else self.low + (self.high - self.low) * v:.{self.digits}g}"
+
+    def coordinate(self, row, key):
+        value = float(row[key] or 0.0)
+        if not self.log:
+            return (value - self.low) / (self.high - self.low)
+        return math.log(max(value, 0.5 * self.low) / self.low) / math.log(self.high / self.low)
+
+
+class Choice(NamedTuple):
+    """One of two ways, each with its settings."""
+    first: dict
+    second: dict
+    share: float  # of the first
+
+    def settings(self, u):
+        return self.first if u < self.share else self.second
+
+    def coordinate(self, row, _):
+        return float(any(row.get(key) == value for key, value in self.second.items()))
+
+
+# In the order of the coordinates of a point
+UNPRINTED = {
+    "stress": Value(0.01, 0.05, True, digits=4),
+    "viscosity": Value(1e-4, 0.05, True, 0.1),
+    "kt": Value(0.03, 1, True),
+    "mus": Value(0.6, 0.85, at_zero=0.4),
+    "retardation": Value(0, 0.004, at_zero=0.5, digits=2),
+    "plates in place": Choice({}, {"hold": "position"}, 0.8),
+    "impedance": Value(0, 0.6, at_zero=0.5),
+    "masses r3": Choice({}, {"mass": "r3"}, 0.6),
+    "contacts of the fault": Choice({}, {"contacts": "fault"}, 0.75),
+    "grid of seeds": Choice({}, {"faces": "none", "seeds": "grid", "linkratio": "1.05"}, 0.6),
+    "loose discs": Choice({}, {"loose": "keep"}, 0.75),
+}
+MEMORY = Value(0.3, 2, True)
+RUN = "memory=0.7 ruptures=yes"  # in each run; its series are picked with other memories
+STEPS = 110000
+SAMPLES = 20000
+LEARNT = 200  # numbers of each kind from which length scales are learnt
+
+
+def settings_of(cube):
+    """Settings of a point of the unit cube, as words of run.py."""
+    row = {}
+    for (key, one), u in zip(UNPRINTED.items(), cube):
+        row |= {key: one.text(u)} if isinstance(one, Value) else one.settings(u)
+    if row.get("hold") == "position":
+        del row["impedance"]  # has no effect there
+    if row.get("contacts") == "fault":
+        row.pop("loose", None)  # nothing would hold a disc that is not linked
+    return row
+
+
+def coordinates(row):
+    """Of a point with a memory, for the surrogate."""
+    own = [one.coordinate(row, key) for key, one in UNPRINTED.items()]
+    return [*own, MEMORY.coordinate(row, "memory"), math.log(float(row["length"]) / 120) / math.log(4)]
+
 
 # ---- collect
 
 
+def told(row, key):
+    return "" if row.get(key) is None else f"{row[key]:.6g}"
+
+
 def summary(postproc, folder, memory, work):
-    from statements import statements_of  # needs NumPy
+    import numpy as np
+    from slip_or_exchange import History, judged, lsm
+    from statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
     subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
     words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
-    said = subprocess.run([postproc, "summary", picked, "--from", str(LOADING), *words], **common).stdout
-    numbers = next(rows_of(said.splitlines()))
-    values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
-    return {**numbers, **{key: "" if values.get(name) is None else f"{values[name]:.6g}" for key, name in WORDED.items()}}
+    base = [postproc, "summary", picked, "--from", str(LOADING), *words, "--threshold", "1e-4"]
+    numbers, squares, longer = (next(rows_of(subprocess.run([*base, *more], **common).stdout.splitlines()))
+                                for more in (["--shortest", "0"], ["--shortest", "0", "--method", "least-squares"], []))
+    try:
+        values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
+    except ValueError:  # too few events or velocities: these statements have no number
+        values = {}
+    numbers |= {key: told(values, name) for key, name in WORDED.items()}
+    numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
+    events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
+    events = events[(events["t_start"] >= LOADING) & (events["size"] >= 1e-3) & (events["size"] < 0.1) & (events["step_end"] <= history.steps[-1])]
+    if len(events) >= 5:
+        excess, rank = judged(history, events, (LOADING - history.offset) / history.dt)
+        numbers |= {"excess": f"{np.sum(excess * events['size']) / np.sum(events['size']):.4g}", "rank": f"{np.mean(rank):.4g}"}
+    return numbers
 
 
 def collect(binaries, output, folders):
-    rows, silent = [], defaults()
-    if Path(output).exists():
-        names = {Path(folder).name for folder in folders}
-        rows = [row for row in read(output) if row["point"] not in names]
+    rows, silent = read(output) if Path(output).exists() else [], defaults()
+    there = {row["point"] for row in rows}
     with tempfile.TemporaryDirectory() as work:
-        for folder in map(Path, folders):
+        for folder in (one for one in map(Path, folders) if one.name not in there and (one / "done.json").exists()):
             words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
             settings = {"point": folder.name, **{key: words.get(key, silent[key]) for key in SETTINGS}}
+            settings["mus"] = words.get("mus", silent["mu"])
+            settings["massstep"] = words.get("massstep", settings["dt"])
+            settings["impedance"] = "" if settings["hold"] == "position" else settings["impedance"]
             if "failed" in json.loads((folder / "done.json").read_text()):
                 rows.append({**settings, "memory": "", "stopped": "yes"})
                 continue
@@ -204,60 +326,209 @@ def collect_sliders(binaries, output, folders):
     write(output, "# One row for each run, smallest size of the events and warm-up; 1e7 steps each", rows)
 
 
-# ---- points
+# ---- surrogate and posterior
 
 
-def nearest(rows, share=0.1):
-    """The given share of the points, each with its best memory, that is nearest to the paper."""
+def completed(path):
+    return [row for row in read(path) if row["stopped"] == "no"]
+
+
+def nearest(rows):
+    """The points, each with the memory that fits best, nearest first."""
     best = {}
     for row in rows:
         if row["point"] not in best or distance(row) < distance(best[row["point"]]):
             best[row["point"]] = row
-    ordered = sorted(best.values(), key=distance)
-    return ordered[:max(1, round(share * len(ordered)))], ordered
+    return sorted(best.values(), key=distance)
 
 
-def points(path, length="120"):
-    """Rows of the points of this length whose runs were completed, and the number of those stopped."""
-    rows = [row for row in read(path) if row["length"] == length]
-    return [row for row in rows if row["stopped"] == "no"], sum(row["stopped"] == "yes" for row in rows)
+class Surrogate:
+    """Each number of the statements over the coordinates, with its error where it was not run."""
+
+    def __init__(self, rows, statements):
+        import warnings
+
+        import numpy as np
+        from sklearn.exceptions import ConvergenceWarning
+        from sklearn.gaussian_process import GaussianProcessRegressor
+        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+        from threadpoolctl import threadpool_limits
+        threadpool_limits(1)  # threads that wait for each other beside running simulations take many times as long
+        warnings.simplefilter("ignore", ConvergenceWarning)
+        self.statements, self.fits, self.left_out = statements, {}, {}
+        at = np.array([coordinates(row) for row in rows])
+        names = sorted({row["point"] for row in rows})
+        # Two memories of each point suffice, as numbers change smoothly with it; their turn makes all of them occur.
+        turn = {name: {MEMORIES[n % len(MEMORIES)], MEMORIES[(n + 2) % len(MEMORIES)]} for n, name in enumerate(names)}
+        used = np.array([float(row["memory"]) in turn[row["point"]] for row in rows])
+        for one in statements:
+            y = np.array([one.scaled(row) for row in rows])
+            low, high = np.nanpercentile(y, [2, 98])
+            some = used & np.isfinite(y)
+            where, value = at[some], np.clip(y[some], low, high)
+            kernel = ConstantKernel(1.0) * RBF(np.full(at.shape[1], 1.0), (0.1, 30)) + WhiteKernel(0.1, (1e-3, 1))
+            learn = slice(None, None, 1 + len(value) // LEARNT)
+            scales = GaussianProcessRegressor(kernel, normalize_y=True).fit(where[learn], value[learn]).kernel_
+            # The last fifth of the points, left out, says how well others are predicted.
+            held = np.array([names.index(row["point"]) % 5 == 4 for row, use in zip(rows, some) if use])
+            fit = GaussianProcessRegressor(scales, optimizer=None, normalize_y=True)
+            miss = value[held] - fit.fit(where[~held], value[~held]).predict(where[held])
+            self.left_out[one.name] = float(np.sqrt(np.mean(miss**2))), float(np.std(value[held]))
+            self.fits[one.name] = fit.fit(where, value)
+
+    def predict(self, at):
+        return {one.name: self.fits[one.name].predict(at, return_std=True) for one in self.statements}
 
 
-def figure(path, base):
-    accepted, ordered = nearest(points(path)[0])
-    taken = {row["point"] for row in accepted}
+def sampled(rows, seed, statements=STATEMENTS, count=None):
+    """(cube, memory, settings, predictions at the two lengths, logarithm of the likelihood) of samples of the prior, and the surrogate."""
+    import numpy as np
+    statements, count = [one for one in statements if one.name != "waves"], count or SAMPLES
+    surrogate, rng = Surrogate(rows, statements), np.random.default_rng(seed)
+    cube = rng.random((count, len(UNPRINTED)))
+    memory = MEMORY.low * (MEMORY.high / MEMORY.low)**rng.random(count)
+    words = [settings_of(one) for one in cube]
+    found, log = {}, np.zeros(count)
+    for length in ("120", "480"):
+        at = np.array([coordinates({"impedance": "", **one, "memory": m, "length": length}) for one, m in zip(words, memory)])
+        found[length] = surrogate.predict(at)
+        for one in printed(statements):
+            mean, error = found[length][one.name]
+            low, high = one.interval()
+            off, tolerance = np.maximum(0.0, np.maximum(low - mean, mean - high)), np.hypot(one.tolerance, error)
+            log += -0.5 * (off / tolerance)**2 - np.log(tolerance / one.tolerance)
+        log += np.array([-0.5 * STATEMENTS_BY_NAME["waves"].deviation({"mass": one.get("mass", "r2")})**2 for one in words])
+    for name, tolerance in (("B", math.log(1.5)), ("gamma", 0.2)):  # one fit for all lengths
+        (a, x), (b, y) = (found[length][name] for length in found)
+        log += -0.5 * (a - b)**2 / (tolerance**2 + x**2 + y**2)
+    return cube, memory, words, found, log, surrogate
 
-    def block(x, y, which):
-        lines = [f"{x(row):.6g} {y(row):.6g}" for row in ordered if (row["point"] in taken) == which]
-        return "\n".join(lines or ["nan nan"]) + "\ne\n"
 
-    panels = [("exponent, 1e-4 to 0.1", "gamma >= 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"), lambda r: number(r, "gamma_0.0001"),
-               "unset logscale; set xrange [0.4:2.4]; set yrange [0:2]; "
-               "set object 1 rect from 1.0,0.895 to 1.14,1.095 fs empty border rgb 'black' lw 2")]
-    for key, label in (("stress", "normal stress"), ("viscosity", "viscosity"), ("kt", "tangential stiffness"),
-                       ("impedance", "impedance of the plates"), ("memory", "memory of the picker")):
-        scale = "unset logscale; " if key == "impedance" else "set logscale x; "
-        low = {"viscosity": 5e-4}.get(key, 0.0)
-        panels.append((label, "distance", lambda r, key=key, low=low: max(float(r[key]), low), distance,
-                       f"unset object 1; {scale}set xrange [*:*]; set yrange [0:*]"))
-    script = "set multiplot layout 2,3\nunset key\nset tics nomirror\nset border 3\n"
-    for x, y, fx, fy, how in panels:
-        script += f"{how}\nset xlabel '{x}'\nset ylabel '{y}'\n"
-        script += "plot '-' w p pt 6 ps 0.6 lc rgb '#999999', '-' w p pt 7 ps 1 lc rgb '#d55e00'\n"
-        script += block(fx, fy, False) + block(fx, fy, True)
+STATEMENTS_BY_NAME = {one.name: one for one in STATEMENTS}
+
+
+def propose(output, length, count, points=None):
+    from scipy.stats import qmc
+    import numpy as np
+    output, count = Path(output), int(count)
+    lines = output.read_text().splitlines() if output.exists() else []
+    n = sum(1 for line in lines if line.startswith("p"))  # points there
+    cubes = list(qmc.Sobol(len(UNPRINTED), seed=2026).random(1024)[n:n + (count // 4 if points else count)])
+    if points:
+        cube, *_, log, _ = sampled(completed(points), n, printed())
+        weight = np.exp(0.5 * (log - log.max()))  # a wider one, since the surrogate is not exact
+        cubes += list(cube[np.random.default_rng(n).choice(len(cube), count - len(cubes), replace=False, p=weight / weight.sum())])
+    for k, one in enumerate(cubes):
+        words = " ".join(f"{key}={value}" for key, value in settings_of(one).items())
+        lines.append(f"p{n + k:03d},fault,{length},1,{STEPS},{RUN} {words}")
+    output.write_text("\n".join(lines) + "\n")
+
+
+# ---- posterior
+
+# Axes of the figure: label, tics
+SHOWN = {
+    "stress": ("normal stress", "0.01, 0.02, 0.04"),
+    "viscosity": ("viscosity", "'0' 5e-5, '10^{-3}' 1e-3, '0.01' 0.01"),
+    "kt": ("tangential spring", "0.03, 0.1, 0.3, 1"),
+    "mus": ("static friction", "0.6, 0.7, 0.8"),
+    "impedance": ("impedance", "0, 0.2, 0.4, 0.6"),
+    "memory": ("memory", "0.3, 0.6, 1, 2"),
+}
+KEPT = 500  # samples of the posterior
+
+
+def posterior(path, base):
+    import numpy as np
+    rows = completed(path)
+    cube, memory, words, found, log, surrogate = sampled(rows, 1, count=4 * SAMPLES)
+    weight = np.exp(log - log.max())
+    print(f"effective samples: {weight.sum()**2 / (weight**2).sum():.0f} of {len(weight)}", file=sys.stderr)
+    weight /= weight.sum()
+    kept = np.random.default_rng(1).choice(len(weight), KEPT, p=weight)
+    out = []
+    for n in kept:
+        predicted = {f"{one.name}_{length}": found[length][one.name][0][n] for length in found for one in STATEMENTS if one.name in found[length]}
+        predicted = {key: math.exp(value) if STATEMENTS_BY_NAME[key.split("_")[0]].log else value for key, value in predicted.items()}
+        out.append({
+            **{key: words[n].get(key, "")
+               for key in (*UNPRINTED_KEYS,)}, "memory": f"{memory[n]:.3g}", **{key: f"{value:.4g}"
+                                                                                for key, value in predicted.items()}
+        })
+    write(f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480", out)
+    lines = []
+    for one in STATEMENTS:
+        line = {"statement": one.name}
+        for length, predicted in found.items():
+            if one.name in predicted:
+                low, high = one.interval()
+                met = np.maximum(low - predicted[one.name][0], predicted[one.name][0] - high) <= one.tolerance
+                line |= {f"prior_{length}": f"{met.mean():.3f}", f"posterior_{length}": f"{met[kept].mean():.3f}"}
+        if one.name in surrogate.left_out:
+            line |= {"left_out": f"{surrogate.left_out[one.name][0]:.3g}", "spread": f"{surrogate.left_out[one.name][1]:.3g}"}
+        lines.append(line)
+    write(
+        f"{base}.statements.csv", "# Shares of prior and posterior that are predicted to; left_out:"
+        " error of the surrogate at points that it was not given, of the number or its logarithm, and their standard deviation", lines)
+    figure(rows, out, base)
+
+
+UNPRINTED_KEYS = tuple(
+    dict.fromkeys([key for key, one in UNPRINTED.items() if isinstance(one, Value)] +
+                  [key for one in UNPRINTED.values() if isinstance(one, Choice) for key in one.second]))
+
+
+def figure(rows, samples, base):
+    """Marginals and pairs of the posterior (orange) beside the points that were run (grey)."""
+    from catalogues import draw
+    values = {key: UNPRINTED.get(key, MEMORY) for key in SHOWN}
+
+    def at(row, key):
+        return max(float(row[key] or 0), 0.5 * values[key].low) if values[key].log else float(row[key] or 0)
+
+    def axis(name, key, wanted):
+        low, high = values[key].low, values[key].high
+        low, high = (0.4 * low if key == "viscosity" else 0.9 * low, 1.1 * high) if values[key].log else (low - 0.05 * (high - low),
+                                                                                                          1.05 * high - 0.05 * low)
+        label, tics = SHOWN[key]
+        tics = tics if wanted else re.sub("'[^']*'", "''", tics)
+        return (f"{'set' if values[key].log else 'unset'} logscale {name}\nset {name}range [{low}:{high}]\nset {name}tics ({tics})\n"
+                f"set format {name} '{'%g' if wanted else ''}'\nset {name}label '{label if wanted else ''}'\n")
+
+    runs = list({row["point"]: row for row in rows if row["length"] == "120"}.values())
+    n = len(SHOWN)
+    script = f"set multiplot layout {n},{n} margins 0.09,0.99,0.08,0.99 spacing 0.015\nunset key\nset datafile separator\n"
+    for i, y in enumerate(SHOWN):
+        for j, x in enumerate(SHOWN):
+            script += axis("x", x, i == n - 1)
+            if j > i:
+                script += "set multiplot next\n"
+            elif i == j:
+                bins = [(math.log(v) if values[x].log else v) for v in (at(one, x) for one in samples)]
+                low, high = (math.log(v) if values[x].log else v for v in (values[x].low, values[x].high))
+                low -= math.log(2) if x == "viscosity" else 0.0  # half of the lowest stands for none
+                step, counts = (high - low) / 14, [0] * 14
+                for v in bins:
+                    counts[min(13, max(0, math.floor((v - low) / step)))] += 1
+                middle = [low + (k + 0.5) * step for k in range(14)]
+                script += "unset logscale y\nset yrange [0:*]\nset format y ''\n" + f"set ylabel '{SHOWN[y][0] if j == 0 else ''}'\n"
+                script += "unset ytics\nplot '-' w boxes fs solid 0.6 noborder lc rgb '#d55e00'\n"
+                script += "".join(f"{math.exp(m) if values[x].log else m:.5g} {c}\n" for m, c in zip(middle, counts)) + "e\n"
+            else:
+                script += axis("y", y, j == 0) + "plot '-' w p pt 7 ps 0.25 lc rgb '#999999', '-' w p pt 7 ps 0.3 lc rgb '#d55e00'\n"
+                for some in (runs if "memory" not in (x, y) else samples, samples):  # a run is picked with all memories
+                    script += "".join(f"{at(one, x):.5g} {at(one, y):.5g}\n" for one in some) + "e\n"
     script += "unset multiplot\n"
-    heads = [
-        f"set terminal pngcairo size 1500,900 font 'DejaVu Sans,13'\nset output '{base}.png'\n",
-        f"set terminal svg size 1000,600 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"
-    ]
-    subprocess.run(["gnuplot"], input="".join(head + script + "unset output\nreset\n" for head in heads), text=True, check=True)
+    draw(base, script, 1100, 950)
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["collect"] and len(sys.argv) > 4:
+    if sys.argv[1:2] == ["propose"] and len(sys.argv) in (5, 6):
+        propose(*sys.argv[2:])
+    elif sys.argv[1:2] == ["collect"] and len(sys.argv) > 4:
         collect(*sys.argv[2:4], sys.argv[4:])
-    elif sys.argv[1:2] == ["figure"] and len(sys.argv) == 4:
-        figure(*sys.argv[2:])
+    elif sys.argv[1:2] == ["posterior"] and len(sys.argv) == 4:
+        posterior(*sys.argv[2:])
     elif sys.argv[1:2] == ["sliders"] and len(sys.argv) > 4:
         collect_sliders(*sys.argv[2:4], sys.argv[4:])
     else:

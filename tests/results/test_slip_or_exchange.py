@@ -91,6 +91,33 @@ def test_surrogates_and_energies(script, postproc, work):
     assert all(abs(float(row["one_in"]) - period) < 2 for row in rows), rows
 
 
+def test_motion_of_two_discs(script, work):
+    """A large disc swings with a period of 30 and a small one with 0.75; the kinetic energy of each is known."""
+    dt, frames, discs = 0.1, 1200, ((1.0, 30.0, 2.0), (0.11, 0.75, 5.0))  # radius, period, speed
+    write_catalogue("run.catalogue.csv", [1.0], [0.1], dict(model="lsm", length=10, seed=1, dt=dt))
+    for n in range(frames):
+        speeds = [speed * math.cos(2 * math.pi * n * dt / period) for _, period, speed in discs]
+        lines = [f"{k} 1 0 0 0 {radius} {v} 0" for k, ((radius, _, _), v) in enumerate(zip(discs, speeds), 1)]
+        Path(f"run.{n:09d}.dump").write_text("\n".join(["ITEM: TIMESTEP", str(n), "ITEM: ATOMS id type x y z radius vx vy", *lines, ""]))
+    run(script, "motion", "motion.csv", "run")
+    *periods, mass = table("motion.csv")
+    found = {float(row["shortest"]): row for row in periods}
+    small = 0.11**2 * 25 / (0.11**2 * 25 + 4)
+    assert float(found[0.5]["share"]) == pytest.approx(small, abs=0.01)
+    assert float(found[20]["share"]) == pytest.approx(1 - small, abs=0.01)
+    assert float(found[0.5]["to_0.12"]) > 0.99 and float(found[20]["to_1.01"]) > 0.99
+    assert float(mass["to_0.12"]) == pytest.approx(0.0121 / 1.0121)
+
+
+def test_a_figure_over_viscosity_and_impedance(script, work):
+    head = "point,stopped,memory,length,viscosity,impedance,mean_time_0.0001,gamma_0.0001,exponent_1e-4:1e-1,excess\n"
+    Path("points.csv").write_text(head + "".join(f"d_{n},no,1,120,{v},{i},15,1,1.1,0.5\n"
+                                                 for n, (v, i) in enumerate((v, i) for v in (1e-3, 1e-2) for i in (0, 0.6))))
+    run(script, "decides", "out", "points.csv")
+    assert "impedance 0.6, length 120" in Path("out.svg").read_text()
+    assert Path("out.png").stat().st_size > 10000
+
+
 def test_bad_input(script, work):
     refused(script, "events nowhere out.csv.xz", r"nowhere\.catalogue\.csv")
     assert not Path("out.csv.xz").exists()
