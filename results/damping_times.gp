@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1100 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,550 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -61,9 +61,13 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
      keyentry with linespoints lt 3 title "fault, length 480 (3576 times)", \
+     table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
+     table using (row(4)):8 with points lt 4 notitle, \
+     keyentry with linespoints lt 4 title "fault, length 945 (1602 times)", \
      [2.4999999999999982:501.18723362727303] '+' using 1:(0.037513304044765404*$1**(0.31408744522841081)*exp(-$1**(1)/12.189942562475187)) with lines lt 1 dt 3 lw 2 notitle, \
      [2.4999999999999982:199.52623149688822] '+' using 1:(0.047315223492620399*$1**(0.20960004261607845)*exp(-$1**(1)/12.013365659206201)) with lines lt 2 dt 3 lw 2 notitle, \
      [2.4999999999999982:125.89254117941687] '+' using 1:(0.04653757052040839*$1**(0.15746761744731397)*exp(-$1**(1)/11.225549833118464)) with lines lt 3 dt 3 lw 2 notitle, \
+     [2.4999999999999982:316.22776601683836] '+' using 1:(0.036871574347828277*$1**(0.27550561672692697)*exp(-$1**(1)/11.271414432349358)) with lines lt 4 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }
