@@ -7,6 +7,7 @@ slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
 slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
+slip_or_exchange.py kinetic OUT.csv RUN...          mean kinetic energy in each 2000 time units, of the RUN.energy.txt of extra=fault_energy
 slip_or_exchange.py motion OUT.csv RUN              kinetic energy by period and by radius of the disc, of the RUN.STEP.dump of extra=fault_dump
 slip_or_exchange.py figure OUT RUN FROM TO RUN FROM TO   a stretch of two runs: OUT.png and OUT.svg
 slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and impedance, of calibrate.py collect: OUT.png and OUT.svg
@@ -175,6 +176,18 @@ def switched(output, *runs):
     write_table(output, ["Events >= 1e-4 in 1000 time units from `begin` after the damping was changed"], rows)
 
 
+def kinetic(output, *runs):
+    rows = []
+    for run in runs:
+        beside, head = np.loadtxt(f"{run}.energy.txt"), lsm.read_series(f"{run}.pe.bin").header
+        time = (beside[:, 0] - float(head["step0"])) * float(head["dt"]) + float(head["time0"])
+        for begin in np.arange(0, time[-1] - 1999, 2000.0):
+            seen = (time >= begin) & (time < begin + 2000)
+            if seen.any():
+                rows.append(dict(run=Path(run).name, begin=begin, kinetic=beside[seen, 1].mean()))
+    write_table(output, ["Mean kinetic energy in 2000 time units from `begin` (slip_or_exchange.py kinetic)"], rows)
+
+
 # ---- which discs move
 
 PERIODS, RADII = (0.24, 0.5, 1, 2, 5, 10, 20, 100), (0.1, 0.12, 0.2, 0.4, 1.01)
@@ -265,8 +278,8 @@ def decides(base, points):
 
 
 if __name__ == "__main__":
-    commands = dict(motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies, switched=switched,
-                    figure=figure)
+    commands = dict(kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies,
+                    switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

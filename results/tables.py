@@ -388,6 +388,14 @@ def motion_table():
         [["all: mass" if row["shortest"] == "mass" else f"{float(row['shortest']):.2g} to {row['longest']}", *cells(row)] for row in rows])
 
 
+def kinetic_table():
+    """Kinetic energy in stretches of time, for each retardation of links."""
+    groups = grouped(read(DAMPING / "kinetic.csv"), lambda row: f"{float(row['run'].split('_')[2]):g}")
+    begins = [row["begin"] for row in next(iter(groups.values()))]
+    return table(["kinetic energy; from time, on the mean of 2000", *(f"retardation {name}" for name in groups)],
+                 [[begin, *(f"{number(rows[n], 'kinetic'):.2g}" for rows in groups.values())] for n, begin in enumerate(begins)])
+
+
 def width_table():
     """Blocks half and twice as wide, packing by packing."""
     rows = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"]

@@ -91,6 +91,14 @@ def test_surrogates_and_energies(script, postproc, work):
     assert all(abs(float(row["one_in"]) - period) < 2 for row in rows), rows
 
 
+def test_kinetic_energy_in_stretches_of_time(script, work):
+    steps = np.arange(0, 9001, 100)
+    write_series("run.pe.bin", np.zeros(9001), dict(dt=1.0, step0=0, time0=0.0, stride=1))
+    np.savetxt("run.energy.txt", np.column_stack([steps, np.where(steps < 4000, 1.0, 3.0), steps, steps]))
+    run(script, "kinetic", "kinetic.csv", "run")
+    assert [(float(row["begin"]), float(row["kinetic"])) for row in table("kinetic.csv")] == [(0, 1), (2000, 1), (4000, 3), (6000, 3)]
+
+
 def test_motion_of_two_discs(script, work):
     """A large disc swings with a period of 30 and a small one with 0.75; the kinetic energy of each is known."""
     dt, frames, discs = 0.1, 1200, ((1.0, 30.0, 2.0), (0.11, 0.75, 5.0))  # radius, period, speed
