@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How many events of one catalogue are found in another, with about the same start and size, each counted once †.
 
-match.py FIRST SECOND --threshold SIZE --within SLIP [--origin TIME] [--to SLIP] [--json FILE]
+match.py FIRST SECOND --threshold SIZE --within SLIP [--from TIME] [--origin TIME] [--to SLIP] [--json FILE]
 
 Times are displacements of one plate, velocity times the time since --origin. In order of time each event of the first takes the
 nearest one of the second that is still free, starts within --within and differs in size by less than a factor of 2. By chance:
-mean over cyclic shifts of the first by 1 to 7 eighths of the time that both have. For the study slow-driving.
+mean over cyclic shifts of the first by 1 to 7 eighths of the time that both have. Events that start before --from are left out. For the
+studies slow-driving and whole-job.
 """
 import argparse
 import math
@@ -17,13 +18,13 @@ from catalogues import events_of, run, write_json
 SHIFTS = 7
 
 
-def displacements_of(path, origin=0.0, end=math.inf):
+def displacements_of(path, origin=0.0, end=math.inf, begin=-math.inf):
     """Starts and sizes of the events, and the end of the last, as displacements. \\raises ValueError"""
     events = events_of(path)
     velocity = abs(float(events.header.get("velocity", 0)))
     if not velocity > 0:
         raise ValueError(f"{path}: no velocity in the header, expected one")
-    events = events[events["t_start"] * velocity < end]
+    events = events[(events["t_start"] * velocity < end) & (events["t_start"] >= begin)]
     if not len(events):
         raise ValueError(f"{path}: a catalogue without events, expected some")
     return (events["t_start"] - origin) * velocity, events["size"], (events["t_end"].max() - origin) * velocity
@@ -60,8 +61,8 @@ def matches(first, second, least, within):
     return dict(smallest_size=least, n_first=len(starts), n_second=len(other[0]), same=count_matches(*pair, within), chance=chance)
 
 
-def main(first, second, threshold, within, origin, end, json_file):
-    found = matches(*(displacements_of(path, origin, end) for path in (first, second)), threshold, within)
+def main(first, second, threshold, within, origin, begin, end, json_file):
+    found = matches(*(displacements_of(path, origin, end, begin) for path in (first, second)), threshold, within)
     write_json(json_file, matches=[dict(first=first, second=second) | found])
 
 
@@ -71,6 +72,7 @@ if __name__ == "__main__":
     parser.add_argument("second", metavar="SECOND")
     parser.add_argument("--threshold", metavar="SIZE", type=float, required=True)
     parser.add_argument("--within", metavar="SLIP", type=float, required=True)
+    parser.add_argument("--from", metavar="TIME", type=float, dest="begin", default=-math.inf)
     parser.add_argument("--origin", metavar="TIME", type=float, default=0.0)
     parser.add_argument("--to", metavar="SLIP", type=float, dest="end", default=math.inf)
     parser.add_argument("--json", metavar="FILE", dest="json_file")

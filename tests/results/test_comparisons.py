@@ -58,6 +58,9 @@ def test_match_of_files(work):
     found, = json.load(open("m.json"))["matches"]
     assert [found[key] for key in ("smallest_size", "n_first", "n_second", "same")] == [0.5, 39, 40, 20]
     assert found["chance"] == pytest.approx(34 / 7)
+    run(script, "a.csv b.csv --origin 100 --from 11000 --threshold 0.5 --within 0.1 --json m.json")
+    later, = json.load(open("m.json"))["matches"]
+    assert (later["n_first"], later["same"]) == (30, 15), "from the eleventh on"
     refused(script, "a.csv b.csv --threshold 0.5 --within 0.1 --to 0.01", "a.csv: a catalogue without events")
     write_catalogue("still.csv", [1, 2], [1, 1])
     refused(script, "a.csv still.csv --threshold 0.5 --within 0.1", "still.csv: no velocity in the header")
