@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from catalogues import draw, lsm, numbers_in, run, write_table
-from rupture_benchmark import ARRIVED, arrival, misfit, report, same_place, summary, tick  # noqa: F401
+from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, report, same_place, summary, tick  # noqa: F401
 
 COLUMNS = ["x", "z", "t", "slip", "slip_rate", "slip_dip"]
 SHOWN = [(0, -7500), (4500, -7500), (-12000, -7500), (4500, 0), (12000, 0)]  # those of TPV5 that differ most from each other
@@ -25,26 +25,7 @@ MOST_POINTS = 3000  # of the map
 
 def reference_of(path):
     """{(x, z): (times, slips, slip rates, slips along dip)}. \\raises ValueError"""
-    with open(path, newline="") as file:
-        lines = [(n, row) for n, row in enumerate(csv.reader(file), 1) if row and not row[0].startswith("#")]
-    if not lines or lines[0][1] != COLUMNS:
-        raise ValueError(f"{path}: expected the columns '{','.join(COLUMNS)}'")
-    found = {}
-    for n, row in lines[1:]:
-        try:
-            x, z, *one = map(float, row)
-            t, *_ = one
-            if len(one) != 4:
-                raise ValueError
-        except ValueError:
-            raise ValueError(f"{path}:{n}: '{','.join(row)}', expected six numbers") from None
-        curve = found.setdefault((x, z), [])
-        if curve and not t > curve[-1][0]:
-            raise ValueError(f"{path}:{n}: time {t:g}, expected increasing times")
-        curve.append(one)
-    if not found:
-        raise ValueError(f"{path}: no rows, expected those of the columns '{','.join(COLUMNS)}'")
-    return {place: np.array(rows).T for place, rows in found.items()}
+    return {place: np.array(rows).T for place, rows in curves_in(path, COLUMNS, float, "six numbers").items()}
 
 
 class Plane:

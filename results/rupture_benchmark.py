@@ -22,25 +22,36 @@ COLUMNS = ["curve", "x", "t", "slip", "slip_rate"]
 # ---- curves: {place: (times, slips, slip rates)}; between the times they are linear
 
 
-def references_of(path):
-    """{name: curves} of a table. \\raises ValueError"""
+def curves_in(path, columns, first, expected):
+    """{place: rows} of a table with these columns: two that say the place, of which `first` reads the first, and a curve from its time on.
+    \\raises ValueError"""
     with open(path, newline="") as file:
         lines = [(n, row) for n, row in enumerate(csv.reader(file), 1) if row and not row[0].startswith("#")]
-    if not lines or lines[0][1] != COLUMNS:
-        raise ValueError(f"{path}: expected the columns '{','.join(COLUMNS)}'")
+    if not lines or lines[0][1] != columns:
+        raise ValueError(f"{path}: expected the columns '{','.join(columns)}'")
     found = {}
     for n, row in lines[1:]:
         try:
-            x, t, slip, rate = map(float, row[1:])
+            if len(row) != len(columns):
+                raise ValueError
+            place, one = (first(row[0]), float(row[1])), tuple(map(float, row[2:]))
         except ValueError:
-            raise ValueError(f"{path}:{n}: '{','.join(row)}', expected a name and four numbers") from None
-        station = found.setdefault(row[0], {}).setdefault(x, [])
-        if station and not t > station[-1][0]:
-            raise ValueError(f"{path}:{n}: time {t:g}, expected increasing times")
-        station.append((t, slip, rate))
+            raise ValueError(f"{path}:{n}: '{','.join(row)}', expected {expected}") from None
+        curve = found.setdefault(place, [])
+        if curve and not one[0] > curve[-1][0]:
+            raise ValueError(f"{path}:{n}: time {one[0]:g}, expected increasing times")
+        curve.append(one)
     if not found:
-        raise ValueError(f"{path}: no rows, expected those of the columns '{','.join(COLUMNS)}'")
-    return {name: {x: np.array(rows).T for x, rows in stations.items()} for name, stations in found.items()}
+        raise ValueError(f"{path}: no rows, expected those of the columns '{','.join(columns)}'")
+    return found
+
+
+def references_of(path):
+    """{name: curves} of a table. \\raises ValueError"""
+    found = {}
+    for (name, x), rows in curves_in(path, COLUMNS, str, "a name and four numbers").items():
+        found.setdefault(name, {})[x] = np.array(rows).T
+    return found
 
 
 def history_of(path):

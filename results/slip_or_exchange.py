@@ -205,13 +205,17 @@ def motion(output, run):
     power = np.abs(np.fft.rfft((velocity - velocity.mean(axis=0)) * np.hanning(len(frames))[:, None, None], axis=0))**2
     energy = power.sum(axis=2) * mass
     period = 1 / np.maximum(np.fft.rfftfreq(len(frames), dt), 1e-9)
+
+    def shares(of):
+        return dict(largest_disc=of.max() / of.sum(),
+                    **{f"to_{b:g}": of[(radius >= a) & (radius < b)].sum() / of.sum()
+                       for a, b in zip(RADII, RADII[1:])})
+
     rows = []
     for low, high in zip(PERIODS, PERIODS[1:]):
         of = energy[(period >= low) & (period < high)].sum(axis=0)
-        rows.append(dict(shortest=low, longest=high, share=of.sum() / energy.sum(), largest_disc=of.max() / of.sum()))
-        rows[-1] |= {f"to_{b:g}": of[(radius >= a) & (radius < b)].sum() / of.sum() for a, b in zip(RADII, RADII[1:])}
-    rows.append(dict(shortest="mass", longest="", share=1.0, largest_disc=mass.max() / mass.sum()))
-    rows[-1] |= {f"to_{b:g}": mass[(radius >= a) & (radius < b)].sum() / mass.sum() for a, b in zip(RADII, RADII[1:])}
+        rows.append(dict(shortest=low, longest=high, share=of.sum() / energy.sum(), **shares(of)))
+    rows.append(dict(shortest="mass", longest="", share=1.0, **shares(mass)))
     write_table(output, [
         f"Kinetic energy by period, {len(frames)} frames; to_R: share of discs up to this radius; last row: of the mass (slip_or_exchange.py motion)"
     ], rows)
@@ -273,8 +277,8 @@ def decides(base, points):
                     lines.append(
                         f"'-' w yerrorlines lc {colour} pt {point} {'dt 3 ' if length == '480' else ''}t 'impedance {impedance}, length {length}'")
                     data += "".join(f"{x:g} {np.mean(y):.5g} {np.std(y, ddof=1) if len(y) > 1 else 0:.5g}\n" for x, y in sorted(at.items())) + "e\n"
-        script += f"{how}\nset {'' if n == 0 else 'no'}key\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}"
-    draw(base, script.replace("set nokey", "unset key") + "unset multiplot", 1100, 760)
+        script += f"{how}\n{'set' if n == 0 else 'unset'} key\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}"
+    draw(base, script + "unset multiplot", 1100, 760)
 
 
 if __name__ == "__main__":

@@ -467,7 +467,7 @@ def statements_table():
 def surrogate_table():
     """Error of the surrogate at points that it was not given, beside what these differ by."""
     rows = [row for row in read(FOLDER / "calibration.statements.csv") if row["left_out"]]
-    units = {one.name: "ln of it" if one.log else "" for one in calibrate.STATEMENTS}
+    units = {name: "ln of it" if one.log else "" for name, one in calibrate.STATEMENTS_BY_NAME.items()}
     return table(["number", "left out", "standard deviation of the points"],
                  [[", ".join(filter(None, (row["statement"], units[row["statement"]]))), row["left_out"], row["spread"]] for row in rows])
 
@@ -475,7 +475,7 @@ def surrogate_table():
 def nearest_table():
     """The points nearest to what is printed, at each length."""
     rows, out = calibrate.nearest(calibrate.completed(POINTS)), []
-    values = {one.name: one for one in calibrate.STATEMENTS}
+    values = calibrate.STATEMENTS_BY_NAME
 
     def text(row, *names):
         return ", ".join(shown(values[name].value(row)) for name in names)

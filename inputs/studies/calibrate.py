@@ -140,6 +140,7 @@ STATEMENTS = (
     Statement("swings", "few inter-event times are oscillations of the blocks †", swings, -ANY, 0.02, 0.03),
     Statement("slip", "events of 0.001 to 0.1 are slip: friction takes up more than half of what the springs lose †", of("excess"), 0.5, ANY, 0.1),
 )
+STATEMENTS_BY_NAME = {one.name: one for one in STATEMENTS}
 
 
 def printed(statements=STATEMENTS):
@@ -193,16 +194,15 @@ class Value(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """One of two ways, each with its settings."""
-    first: dict
-    second: dict
-    share: float  # of the first
+    """The default of some settings, or another way."""
+    other: dict
+    share: float  # of the default
 
     def settings(self, u):
-        return self.first if u < self.share else self.second
+        return {} if u < self.share else self.other
 
     def coordinate(self, row, _):
-        return float(any(row.get(key) == value for key, value in self.second.items()))
+        return float(any(row.get(key) == value for key, value in self.other.items()))
 
 
 # In the order of the coordinates of a point
@@ -212,12 +212,12 @@ UNPRINTED = {
     "kt": Value(0.03, 1, True),
     "mus": Value(0.6, 0.85, at_zero=0.4),
     "retardation": Value(0, 0.004, at_zero=0.5, digits=2),
-    "plates in place": Choice({}, {"hold": "position"}, 0.8),
+    "plates in place": Choice({"hold": "position"}, 0.8),
     "impedance": Value(0, 0.6, at_zero=0.5),
-    "masses r3": Choice({}, {"mass": "r3"}, 0.6),
-    "contacts of the fault": Choice({}, {"contacts": "fault"}, 0.75),
-    "grid of seeds": Choice({}, {"faces": "none", "seeds": "grid", "linkratio": "1.05"}, 0.6),
-    "loose discs": Choice({}, {"loose": "keep"}, 0.75),
+    "masses r3": Choice({"mass": "r3"}, 0.6),
+    "contacts of the fault": Choice({"contacts": "fault"}, 0.75),
+    "grid of seeds": Choice({"faces": "none", "seeds": "grid", "linkratio": "1.05"}, 0.6),
+    "loose discs": Choice({"loose": "keep"}, 0.75),
 }
 MEMORY = Value(0.3, 2, True)
 RUN = "memory=0.7 ruptures=yes"  # in each run; its series are picked with other memories
@@ -404,9 +404,6 @@ def sampled(rows, seed, statements=STATEMENTS, count=None):
     return cube, memory, words, found, log, surrogate
 
 
-STATEMENTS_BY_NAME = {one.name: one for one in STATEMENTS}
-
-
 def propose(output, length, count, points=None):
     from scipy.stats import qmc
     import numpy as np
@@ -475,7 +472,7 @@ def posterior(path, base):
 
 UNPRINTED_KEYS = tuple(
     dict.fromkeys([key for key, one in UNPRINTED.items() if isinstance(one, Value)] +
-                  [key for one in UNPRINTED.values() if isinstance(one, Choice) for key in one.second]))
+                  [key for one in UNPRINTED.values() if isinstance(one, Choice) for key in one.other]))
 
 
 def figure(rows, samples, base):
