@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "facing_spheres.h"
 #include "fault_scene.h"
 #include "files/slip_history.h"
 #include "read_catalogue.h"
@@ -17,39 +18,8 @@ using Plane = Lmp;
 /// Eight by six upper spheres (IDs 49 to 96), each right above a lower one (IDs 1 to 48, along z
 /// first) with an overlap of 0.01. The box is periodic along x.
 static std::string upper_and_lower(const std::string &compute) {
-  std::string script = R"(
-variable          newton index off
-units             lj
-dimension         3
-boundary          p f f
-newton            ${newton}
-atom_style        hybrid bond sphere
-atom_modify       map array
-comm_modify       mode single cutoff 4.5
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check yes
-region            box block 0 16 -10 10 -12 0
-create_box        2 box
-)";
-  for (int type : {1, 2})
-    for (int n = 0; n < 8; ++n)
-      for (int m = 0; m < 6; ++m)
-        script += "create_atoms " + std::to_string(type) + " single " + std::to_string(2 * n + 1) +
-                  (type == 1 ? " 0.0 " : " 1.99 ") + std::to_string(2 * m - 11) + "\n";
-  return script + R"(
-set               group all diameter 2.0
-set               group all mass 1.0
-group             below type 1
-group             above type 2
-group             lowerface type 1
-group             upperface type 2
-pair_style        lsm/friction
-pair_coeff        * * off
-pair_coeff        1 2 1.0 1.0 1e-5
-timestep          0.1
-thermo            1000
-)" + compute +
-         "\n";
+  return facing_spheres(8, 6, "dimension         3\nboundary          p f f", "0 16 -10 10 -12 0") +
+         compute + "\n";
 }
 
 static std::string events(const std::string &more) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "facing_spheres.h"
 #include "fault_scene.h"
 #include "files/pe_series.h"
 #include "files/slip_history.h"
@@ -19,37 +20,9 @@ using Located = Lmp;
 /// Twenty upper discs (IDs 21 to 40), each right above a lower one (IDs 1 to 20) with an overlap of
 /// 0.01. The period is 40.
 static std::string upper_and_lower(const std::string &compute) {
-  std::string script = R"(
-variable          newton index off
-units             lj
-dimension         2
-boundary          p f p
-newton            ${newton}
-atom_style        hybrid bond sphere
-atom_modify       map array
-comm_modify       mode single cutoff 4.5
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check yes
-region            box block 0 40 -10 10 -0.5 0.5
-create_box        2 box
-)";
-  for (int type : {1, 2})
-    for (int n = 0; n < 20; ++n)
-      script += "create_atoms " + std::to_string(type) + " single " + std::to_string(2 * n + 1) +
-                (type == 1 ? " 0.0 0\n" : " 1.99 0\n");
-  return script + R"(
-set               group all diameter 2.0
-set               group all mass 1.0
-group             below type 1
-group             above type 2
-group             lowerface type 1
-group             upperface type 2
-pair_style        lsm/friction
-pair_coeff        * * off
-pair_coeff        1 2 1.0 1.0 1e-5
-timestep          0.1
-thermo            1000
-compute           events all lsm/events sides below above faces lowerface upperface overwrite yes )" +
+  return facing_spheres(20, 0, "dimension         2\nboundary          p f p",
+                        "0 40 -10 10 -0.5 0.5") +
+         R"(compute           events all lsm/events sides below above faces lowerface upperface overwrite yes )" +
          compute + "\nthermo_style      custom step c_events c_events[2] c_events[5]\n";
 }
 

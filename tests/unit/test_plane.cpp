@@ -13,6 +13,7 @@
 
 #include "crack.h"
 #include "numerics/random.h"
+#include "some_ruptures.h"
 #include "unit_files.h"
 
 namespace {
@@ -24,32 +25,17 @@ using LSM::RuptureFinder;
 using LSM::RuptureSettings;
 using unit::contains;
 using unit::message_of;
+using unit::some_settings;
 
 FaultGrid some_plane(int bins, int rows, bool ring = true, bool ring_dip = false) {
-  FaultGrid grid;
+  FaultGrid grid = unit::some_grid(bins);
   grid.plane = true;
-  grid.bins = bins;
   grid.rows = rows;
-  grid.x0 = -5.0;
-  grid.width = 2.0;
   grid.z0 = -6.0;
   grid.height = 1.5;
   grid.ring = ring;
   grid.ring_dip = ring_dip;
-  grid.step0 = 1000;
-  grid.interval = 4;
-  grid.time0 = 50.0;
-  grid.dt = 0.25;
   return grid;
-}
-
-RuptureSettings some_settings(int gap = 0, std::int64_t memory = 1) {
-  RuptureSettings settings;
-  settings.velocity = 0.005;
-  settings.gap = gap;
-  settings.memory = memory;
-  settings.modulus = 0.5;
-  return settings;
 }
 
 using Contacts = std::vector<LSM::FaultContact>;

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "numerics/random.h"
-#include "events/ruptures.h"
-#include "events/slip_recorder.h"
 #include "slow_ruptures.h"
+#include "some_ruptures.h"
 
 namespace {
 
@@ -18,31 +17,11 @@ using LSM::FaultGrid;
 using LSM::FaultRow;
 using LSM::RuptureFinder;
 using LSM::RuptureSettings;
+using unit::some_grid;
+using unit::some_settings;
 
 /// One line per interval, one character per bin; a digit is the slip of the bin in hundredths.
 using Pattern = std::vector<std::string>;
-
-/// Ten bins of width 2 from x = -5; intervals of 4 steps of 0.25; slips above 0.005 count.
-FaultGrid some_grid(int bins = 10) {
-  FaultGrid grid;
-  grid.bins = bins;
-  grid.x0 = -5.0;
-  grid.width = 2.0;
-  grid.step0 = 1000;
-  grid.interval = 4;
-  grid.time0 = 50.0;
-  grid.dt = 0.25;
-  return grid;
-}
-
-RuptureSettings some_settings(int gap = 0, std::int64_t memory = 1) {
-  RuptureSettings settings;
-  settings.velocity = 0.005;
-  settings.gap = gap;
-  settings.memory = memory;
-  settings.modulus = 0.5;
-  return settings;
-}
 
 /// Work is a tenth of the slip; the stress of bin b after interval n is 1 - n / 100 + b / 1000, and
 /// PE is -n.
