@@ -329,11 +329,8 @@ def of_all_times(folder):
     for path, row, one in zip(paths, summaries(folder), all_times):
         starts = [number(event, "t_start") for event in read(path)]
         apart = 1 + sum(later - start >= BURST for start, later in zip(starts, starts[1:]))
-        rows.append({
-            **row, "gamma_longer": row["gamma_0.0001"], **{key: one[key]
-                                                           for key in ("gamma_0.0001", "gamma_error_0.0001", "B_0.0001")}, "apart": str(
-                (starts[-1] - starts[0]) / apart)
-        })
+        own = {key: one[key] for key in ("gamma_0.0001", "gamma_error_0.0001", "B_0.0001")}
+        rows.append({**row, **own, "gamma_longer": row["gamma_0.0001"], "apart": str((starts[-1] - starts[0]) / apart)})
     return rows
 
 
@@ -401,13 +398,9 @@ def width_table():
     rows = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"]
     rows = [row for row in rows if row["point"].startswith(("w_120", "d_120_5e-4_0_"))]
     groups = grouped(sorted(rows, key=lambda row: (float(row["width"]), row["seed"])), lambda row: row["width"])
-
-    def cell(rows, key):
-        return ", ".join(shown(number(row, key)) for row in rows)
-
     keys = {"one event in": "mean_time_0.0001", "B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001"}
     keys |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
-    return table(["width", *keys], [[width, *(cell(rows, key) for key in keys.values())] for width, rows in groups.items()])
+    return table(["width", *keys], [[width, *(over(rows, key) for key in keys.values())] for width, rows in groups.items()])
 
 
 def kinds_table():
@@ -475,14 +468,14 @@ def surrogate_table():
 def nearest_table():
     """The points nearest to what is printed, at each length."""
     rows, out = calibrate.nearest(calibrate.completed(POINTS)), []
-    values = calibrate.STATEMENTS_BY_NAME
+    values, silent = calibrate.STATEMENTS_BY_NAME, calibrate.defaults()
 
     def text(row, *names):
         return ", ".join(shown(values[name].value(row)) for name in names)
 
     slip = [row for row in rows if values["slip"].deviation(row) <= 0]
     for row in [row for row in rows if row["length"] == "120"][:4] + [row for row in rows if row["length"] == "480"][:3] + slip[:3]:
-        silent, words = calibrate.defaults(), []
+        words = []
         for key in ("stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "mass", "contacts", "seeds", "loose", "memory"):
             if row[key] and row[key] != silent.get(key):
                 words.append(f"{key} {row[key]}")
