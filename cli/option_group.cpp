@@ -26,9 +26,9 @@ Rule number_that(Good good, const std::string &expected) {
   return check(CLI::Validator(
       [good, expected](std::string &text) {
         Number value{};
-        return text_io::parse(text, value) && good(value)
+        return text::parse(text, value) && good(value)
                    ? std::string()
-                   : "expected " + expected + ", not " + text_io::in_quotes(text);
+                   : "expected " + expected + ", not " + text::in_quotes(text);
       },
       ""));
 }

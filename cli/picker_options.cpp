@@ -45,7 +45,7 @@ PickerOptions::Added PickerOptions::add_to(OptionGroup group) {
 
 PickerSettings PickerOptions::over(PickerSettings settings, double interval) const {
   if (reading && !from_string(*reading, settings.reading))
-    fail("--picker", text_io::in_quotes(*reading), choices(settings.reading));
+    fail("--picker", text::in_quotes(*reading), choices(settings.reading));
   if (lambda) {
     if (!(*lambda >= 0.0 && *lambda < 1.0))
       fail(lambda_name(), digits(*lambda), "at least 0 and less than 1");

@@ -51,7 +51,7 @@ void write_checkpoint(const std::string &path, const std::vector<std::string> &s
   for (const double number : numbers) LSM::binary_io::append_bytes(run, number);
   const std::string head =
       title + std::to_string(version) + " " + std::to_string(LSM::crc32(run)) + "\n";
-  LSM::text_io::write_file(path, head + run, true);
+  LSM::files::write_file(path, head + run, true);
 }
 
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings) {

@@ -143,7 +143,7 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
   if (base.summary == "-")
     std::cout << text;
   else if (!base.summary.empty())
-    LSM::text_io::write_file(base.summary, text);
+    LSM::files::write_file(base.summary, text);
   return status;
 }
 

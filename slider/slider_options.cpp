@@ -182,7 +182,7 @@ class CommandLine {
 
   void take_columns(const std::string &list) {
     std::vector<std::string_view> words;
-    LSM::text_io::split(list, words);
+    LSM::text::split(list, words);
     for (const std::string_view word : words) {
       if (word != "centroid" && word != "length")
         throw std::invalid_argument("--columns = '" + list +
@@ -226,9 +226,9 @@ class CommandLine {
   /// Refuses keys that appear twice, as CLI11 would silently take the last one.
   /// \throws LSM::FileError
   void check_config(const std::string &path) const {
-    using LSM::text_io::in_quotes;
-    using LSM::text_io::trim;
-    LSM::text_io::LineReader in(path);
+    using LSM::text::in_quotes;
+    using LSM::text::trim;
+    LSM::files::LineReader in(path);
     std::set<std::string> keys;
     for (std::string_view line; in.next(line);) {
       const bool marked = in.line() == 1 && in.begin() > 0;
@@ -433,7 +433,7 @@ bool is_summary(std::string_view head) {
 std::vector<std::vector<std::string>> runs_of(const Settings &base) {
   std::vector<std::vector<std::string>> runs;
   std::int64_t count = 0;
-  if (LSM::text_io::parse(base.ensemble, count)) {
+  if (LSM::text::parse(base.ensemble, count)) {
     if (count < 1 || count > 100000)
       throw std::invalid_argument("--ensemble = " + base.ensemble + ", expected 1 to 100000 runs");
     for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(count); ++k)
@@ -443,7 +443,7 @@ std::vector<std::vector<std::string>> runs_of(const Settings &base) {
   if (!std::ifstream(base.ensemble))
     throw std::invalid_argument("--ensemble = '" + base.ensemble +
                                 "', expected a number of runs or a readable file");
-  LSM::text_io::LineReader in(base.ensemble);
+  LSM::files::LineReader in(base.ensemble);
   for (std::string_view line; in.next(line);) {
     std::istringstream words{std::string(line)};
     std::vector<std::string> extra;

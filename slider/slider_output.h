@@ -33,7 +33,7 @@ class Outputs {
     series_info_.dt = o_.parameters.dt;
     series_info_.stride = o_.series_stride;
     // The header of a series has a key of its own for the time step.
-    series_info_.parameters = LSM::text_io::without(o_.header, {"dt"});
+    series_info_.parameters = LSM::files::without(o_.header, {"dt"});
   }
 
   /// Starts new files, with the sample of step 0.
@@ -71,7 +71,7 @@ class Outputs {
   void flush() {
     series_.flush();
     for (const std::string &path : {o_.catalogue, o_.series})
-      if (LSM::text_io::holds_data(path)) LSM::text_io::sync(path);
+      if (LSM::files::holds_data(path)) LSM::files::sync(path);
   }
   void close() {
     series_.close();

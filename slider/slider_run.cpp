@@ -24,7 +24,7 @@
 namespace Slider {
 
 void probe(const std::string &path) {
-  const std::string problem = path.empty() ? path : LSM::text_io::why_not_writable(path);
+  const std::string problem = path.empty() ? path : LSM::files::why_not_writable(path);
   if (!problem.empty()) throw LSM::FileError(problem);
 }
 

@@ -17,7 +17,7 @@ namespace Slider {
 
 namespace {
 
-using LSM::text_io::in_quotes;
+using LSM::text::in_quotes;
 
 /// Mean of K(q) / mu' over all wavenumbers by Simpson's rule: the stiffness that a block feels when
 /// it slips alone.
@@ -35,16 +35,16 @@ double mean_stiffness(Coupling coupling, double width) {
 /// Reads lines of `columns` numbers and calls use(line reader, numbers) for each.
 template <std::size_t columns, class Use>
 void for_each_row(const std::string &path, const char *expected, const Use &use) {
-  LSM::text_io::LineReader in(path);
+  LSM::files::LineReader in(path);
   std::vector<std::string_view> fields;
   for (std::string_view line; in.next(line);) {
-    line = LSM::text_io::trim(line.substr(0, line.find('#')));
+    line = LSM::text::trim(line.substr(0, line.find('#')));
     if (line.empty()) continue;
-    LSM::text_io::split(line, fields);
+    LSM::text::split(line, fields);
     std::array<double, columns> row{};
     bool sound = fields.size() == columns;
     for (std::size_t k = 0; sound && k < columns; ++k)
-      sound = LSM::text_io::parse(LSM::text_io::trim(fields[k]), row[k]);
+      sound = LSM::text::parse(LSM::text::trim(fields[k]), row[k]);
     if (!sound) in.fail(in_quotes(line) + ", expected " + expected);
     use(in, row);
   }
@@ -100,16 +100,16 @@ std::vector<double> read_modes(const std::string &path, int blocks) {
   std::vector<std::array<double, 2>> table;
   const char *const row =
       "wavenumber,stiffness with wavenumbers that ascend from 0, stiffnesses > 0";
-  for_each_row<2>(path, row, [&](LSM::text_io::LineReader &in, const std::array<double, 2> &r) {
+  for_each_row<2>(path, row, [&](LSM::files::LineReader &in, const std::array<double, 2> &r) {
     if (!(r[1] > 0.0) || (table.empty() ? r[0] != 0.0 : !(r[0] > table.back()[0])))
-      in.fail("wavenumber " + LSM::text_io::number(r[0]) + ", stiffness " +
-              LSM::text_io::number(r[1]) + ", expected " + row);
+      in.fail("wavenumber " + LSM::text::number(r[0]) + ", stiffness " + LSM::text::number(r[1]) +
+              ", expected " + row);
     table.push_back(r);
   });
   // The file may round pi to a few digits.
   if (table.size() < 2 || table.back()[0] < LSM::pi * (1.0 - 1e-4))
     throw LSM::FileError(path + ": ends at wavenumber " +
-                         (table.empty() ? "none" : LSM::text_io::number(table.back()[0])) +
+                         (table.empty() ? "none" : LSM::text::number(table.back()[0])) +
                          ", expected lines up to pi, the shortest wave of the blocks");
   std::vector<double> modes;
   std::size_t k = 1;
@@ -126,8 +126,8 @@ std::vector<double> read_modes(const std::string &path, int blocks) {
 std::vector<double> read_strengths(const std::string &path, int blocks) {
   std::vector<double> strengths;
   const char *const row = "one strength, a number >= 0";
-  for_each_row<1>(path, row, [&](LSM::text_io::LineReader &in, const std::array<double, 1> &r) {
-    if (!(r[0] >= 0.0)) in.fail(LSM::text_io::number(r[0]) + ", expected " + row);
+  for_each_row<1>(path, row, [&](LSM::files::LineReader &in, const std::array<double, 1> &r) {
+    if (!(r[0] >= 0.0)) in.fail(LSM::text::number(r[0]) + ", expected " + row);
     if (strengths.size() == static_cast<std::size_t>(blocks))
       in.fail("more strengths, expected " + std::to_string(blocks) + ", one for each block");
     strengths.push_back(r[0]);

@@ -256,7 +256,7 @@ std::string BondLSMLinked::retardation() const
   std::string text;
   if (!any_above_0(delay)) return text;
   for (int i = 1; i <= atom->nbondtypes; i++)
-    text += (i > 1 ? " " : "") + LSM::text_io::number(delay[i]);
+    text += (i > 1 ? " " : "") + LSM::text::number(delay[i]);
   return text;
 }
 

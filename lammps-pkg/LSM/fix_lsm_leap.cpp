@@ -142,7 +142,7 @@ std::string FixLSMLeap::settings()
   std::vector<std::string> words;
   for (const LSM::Keyword &one : keywords()) {
     words.emplace_back(one.name);
-    words.push_back(LSM::text_io::number(*std::get<double *>(one.value)));
+    words.push_back(LSM::text::number(*std::get<double *>(one.value)));
   }
   return utils::join_words(words, " ");
 }

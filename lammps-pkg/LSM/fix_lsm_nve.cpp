@@ -65,9 +65,9 @@ std::string FixLSMNVE::viscosity() const
 {
   const bool same =
       std::all_of(nu.begin() + 1, nu.end(), [this](double value) { return value == nu[1]; });
-  std::string text = LSM::text_io::number(nu[1]);
+  std::string text = LSM::text::number(nu[1]);
   for (size_t itype = 2; !same && itype < nu.size(); itype++)
-    text += " " + LSM::text_io::number(nu[itype]);
+    text += " " + LSM::text::number(nu[itype]);
   return text;
 }
 

@@ -67,9 +67,9 @@ FixLSMPlates::~FixLSMPlates()
   if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
 
-LSM::text_io::Parameters FixLSMPlates::settings() const
+LSM::files::Parameters FixLSMPlates::settings() const
 {
-  using LSM::text_io::number;
+  using LSM::text::number;
   return {{"hold", servo ? "stress" : "position"},
           {"stress", servo ? number(stress) : ""},
           {"impedance", servo ? number(impedance) : ""},

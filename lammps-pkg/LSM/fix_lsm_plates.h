@@ -45,7 +45,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double loading = 1.0;    // present factor of the driving velocity, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   // the settings in effect, for headers
-  LSM::text_io::Parameters settings() const;
+  LSM::files::Parameters settings() const;
   // energy of the motion of the plates across the fault
   double kinetic() const { return plate[0].kinetic() + plate[1].kinetic(); }
   template <class Self, class State> static void visit(Self &self, State &state)

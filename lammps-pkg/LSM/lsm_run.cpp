@@ -71,7 +71,7 @@ void LSMRun::command(int narg, char **arg)
 
 void LSMRun::save(const std::string &name)
 {
-  LSM::text_io::Parameters settings;
+  LSM::files::Parameters settings;
   for (const std::string &one : further_variables)
     settings.emplace_back(one, LSMScript::value_of(lmp, one, "lsm_run"));
   for (auto &one : LSMScript::listed(lmp, LSMScript::SAVED)) settings.push_back(std::move(one));
@@ -84,7 +84,7 @@ std::vector<std::string> LSMRun::earlier_files() const
 {
   std::vector<std::string> found;
   for (const std::string &file : unused)
-    if (LSM::text_io::holds_data(file)) found.push_back(file);
+    if (LSM::files::holds_data(file)) found.push_back(file);
   const fs::path base = prefix + ".restart.";
   const std::string begin = base.filename().string();
   std::error_code code;

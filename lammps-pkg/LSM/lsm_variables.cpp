@@ -27,7 +27,7 @@ using namespace LAMMPS_NS;
 static bool same(const std::string &one, const std::string &other)
 {
   double a, b;
-  return one == other || (LSM::text_io::parse(one, a) && LSM::text_io::parse(other, b) && a == b);
+  return one == other || (LSM::text::parse(one, a) && LSM::text::parse(other, b) && a == b);
 }
 
 // lsm_variables FILE [also NAME ...] [new FILE ...]
@@ -134,7 +134,7 @@ const std::string *LSMVariables::saved_value(const LSMSceneVariable &one)
   if (restart.empty() ||
       (one.restart != LSMSceneVariable::FIXED && one.restart != LSMSceneVariable::FREE))
     return nullptr;
-  const std::string *const value = LSM::text_io::find(saved, one.name);
+  const std::string *const value = LSM::files::find(saved, one.name);
   if (!value && one.restart == LSMSceneVariable::FIXED && comm->me == 0)
     error->warning(FLERR, "Restart file {} has no value of {}: the given one is used", restart,
                    one.name);
@@ -147,7 +147,7 @@ bool LSMVariables::follows_others(const LSMVariableTable &table, const LSMSceneV
 {
   if (one.restart != LSMSceneVariable::FREE) return false;
   const auto then = [this](const std::string &name) {
-    const std::string *const found = LSM::text_io::find(saved, name);
+    const std::string *const found = LSM::files::find(saved, name);
     return found ? *found : value_now(name);
   };
   const std::string &text = table.default_of(one, then);
@@ -218,7 +218,7 @@ void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
     for (const std::string &name : one.names) {
       if (!all || !is_given(name)) continue;
       // a run that began with this value may continue with it
-      const std::string *const then = LSM::text_io::find(saved, name);
+      const std::string *const then = LSM::files::find(saved, name);
       if (then && same(value_now(name), *then)) continue;
       error->all(FLERR, "Variable {} is '{}', but has no effect, as {}; leave it out", name,
                  value_now(name), where);
@@ -233,7 +233,7 @@ void LSMVariables::refuse_earlier(const std::string &name) const
   const std::string file = LSMVariableTable::filled(
       name, [this](const std::string &variable) { return value_now(variable); });
   std::string there;
-  if (comm->me == 0 && LSM::text_io::holds_data(file)) there = file;
+  if (comm->me == 0 && LSM::files::holds_data(file)) there = file;
   lsm_share(there, world);
   if (!there.empty())
     error->all(FLERR, "File {} exists; give another prefix, or replace it with overwrite yes",

@@ -28,7 +28,7 @@ class LSMVariables : public Command {
 
  private:
   std::string restart;               // the file that the run continues from, or ""
-  LSM::text_io::Parameters saved;    // the parameters in its .info file
+  LSM::files::Parameters saved;      // the parameters in its .info file
   std::vector<std::string> given;    // variables that were set before
 
   bool is_given(const std::string &) const;

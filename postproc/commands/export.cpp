@@ -206,8 +206,8 @@ class Export : public CatalogueAnalysis {
     const Format *format = formats;
     while (format->name != format_) ++format;
     const std::string of_model = magnitudes_.type(), unknown;
-    const auto file = std::make_shared<ClaimedFile<text_io::OutputFile>>(output_.path, overwrite);
-    text_io::OutputFile &out = file->writer;
+    const auto file = std::make_shared<ClaimedFile<files::OutputFile>>(output_.path, overwrite);
+    files::OutputFile &out = file->writer;
     out.create(output_.path, format->head, true);
     std::string block;
     std::int64_t written = 0, without = 0;

@@ -98,8 +98,8 @@ class Intervals : public Statistic {
     settings_.deltas.clear();
     for (const std::string &text : deltas_) {
       double delta = std::numeric_limits<double>::quiet_NaN();
-      if (text != "free" && !(text_io::parse(text, delta) && delta > 0.0))
-        throw std::invalid_argument("--delta " + text_io::in_quotes(text) +
+      if (text != "free" && !(text::parse(text, delta) && delta > 0.0))
+        throw std::invalid_argument("--delta " + text::in_quotes(text) +
                                     ", expected 'free' or a positive number");
       settings_.deltas.push_back(delta);
     }

@@ -66,7 +66,7 @@ class Magnitudes : public Statistic {
     const std::string from = !complete_.empty()        ? complete_
                              : magnitudes_.of_moment() ? "curvature"
                                                        : "header";
-    if (text_io::parse(from, curve.completeness)) {
+    if (text::parse(from, curve.completeness)) {
       curve.completeness_text = "as given";
     } else if (from == "curvature") {
       curve.completeness = curve.curvature;
@@ -84,7 +84,7 @@ class Magnitudes : public Statistic {
                                                : scale.of(smallest.size);
       curve.completeness_text = "sizes >= " + text(smallest);
     } else {
-      throw std::invalid_argument("--complete-from " + text_io::in_quotes(from) +
+      throw std::invalid_argument("--complete-from " + text::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");
     }
     // Rounds the completeness up to the centre of a bin, which b_value() requires.

@@ -104,7 +104,7 @@ int main(int argc, char **argv) {
     if (argc > 1 && argv[1][0] != '-' &&
         std::none_of(commands.begin(), commands.end(),
                      [argv](const auto &command) { return command.first == argv[1]; }))
-      return fail("unknown command " + LSM::text_io::in_quotes(argv[1]) + ", did you mean '" +
+      return fail("unknown command " + LSM::text::in_quotes(argv[1]) + ", did you mean '" +
                   nearest(argv[1], commands) + "'? (--help lists the options)");
     if (const auto status = LSM::parse(app, {argv + 1, argv + argc})) return *status;
     if (std::fflush(stdout) != 0 || std::ferror(stdout))

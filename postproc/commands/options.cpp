@@ -25,7 +25,7 @@ namespace {
 /// Parses a size, or M and a magnitude, which is converted to a size.
 bool parse_size(std::string_view text, double &size) {
   const bool magnitude = text.substr(0, 1) == "M";
-  if (!text_io::parse(text.substr(magnitude ? 1 : 0), size)) return false;
+  if (!text::parse(text.substr(magnitude ? 1 : 0), size)) return false;
   if (magnitude) size = size_of_magnitude(size);
   return std::isfinite(size);
 }
@@ -37,8 +37,8 @@ Rule size_or_magnitude() {
     double size = 0.0;
     if (text.empty() || text.front() != 'M') return std::string();
     if (!parse_size(text, size))
-      return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
-    text = text_io::number(size);
+      return "expected a size, or M and a magnitude, not " + text::in_quotes(text);
+    text = text::number(size);
     return std::string();
   });
 }
@@ -63,8 +63,8 @@ void add_block(OptionGroup group, std::string &text) {
 
 double parse_block(const std::string &text) {
   double block = std::numeric_limits<double>::quiet_NaN();
-  if (text != "auto" && !(text_io::parse(text, block) && block >= 0.0))
-    throw std::invalid_argument("--block " + text_io::in_quotes(text) +
+  if (text != "auto" && !(text::parse(text, block) && block >= 0.0))
+    throw std::invalid_argument("--block " + text::in_quotes(text) +
                                 ", expected 'auto' or a time of 0 or more");
   return block;
 }
@@ -74,12 +74,12 @@ Range parse_range(const std::string &option, std::string_view text) {
   Range range{-infinity, infinity};
   const std::size_t colon = text.find(':');
   const auto end = [](std::string_view field, double &value) {
-    field = text_io::trim(field);
+    field = text::trim(field);
     return field.empty() || parse_size(field, value);
   };
   if (colon == std::string_view::npos || !end(text.substr(0, colon), range.lo) ||
       !end(text.substr(colon + 1), range.hi) || !(range.lo < range.hi))
-    throw std::invalid_argument(option + " " + text_io::in_quotes(text) +
+    throw std::invalid_argument(option + " " + text::in_quotes(text) +
                                 ", expected LO:HI with LO < HI (an end may be left out)");
   return range;
 }
@@ -87,13 +87,13 @@ Range parse_range(const std::string &option, std::string_view text) {
 PowerLine parse_guide(std::string_view text) {
   PowerLine line;
   const std::size_t colon = text.find(':');
-  if (!text_io::parse(text_io::trim(text.substr(0, colon)), line.slope))
-    throw std::invalid_argument("--guide " + text_io::in_quotes(text) +
+  if (!text::parse(text::trim(text.substr(0, colon)), line.slope))
+    throw std::invalid_argument("--guide " + text::in_quotes(text) +
                                 ", expected SLOPE or SLOPE:LO:HI");
   if (colon != std::string_view::npos) {
     const Range range = parse_range("--guide", text.substr(colon + 1));
     if (!(range.lo > 0.0) || !std::isfinite(range.hi))
-      throw std::invalid_argument("--guide " + text_io::in_quotes(text) +
+      throw std::invalid_argument("--guide " + text::in_quotes(text) +
                                   ", expected 0 < LO < HI after the slope");
     line.lo = range.lo;
     line.hi = range.hi;
@@ -190,7 +190,7 @@ double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &i
   // Column slip_moment is slip times length; for ruptures it includes the modulus of the header.
   double modulus = 1.0;
   const std::string *const text = info.find("modulus");
-  if (text && (!text_io::parse(*text, modulus) || !(modulus > 0.0)))
+  if (text && (!text::parse(*text, modulus) || !(modulus > 0.0)))
     throw std::runtime_error(
         fmt::format("{}: modulus is '{}', expected a positive number", path, *text));
   return in_si.moment() / modulus;

@@ -13,30 +13,29 @@ namespace {
 
 /// The parameters that the run itself writes to its catalogue: those of the series, dt, and the
 /// settings of the picker. A value that has not changed keeps its text.
-text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
-                                         const FilterSettings &filter) {
-  text_io::Parameters parameters = info.parameters;
+files::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
+                                       const FilterSettings &filter) {
+  files::Parameters parameters = info.parameters;
   // dt is where the runs write it: before `viscosity` (fault) or `picker` (block-slider).
   const auto after_dt =
       std::find_if(parameters.begin(), parameters.end(), [](const auto &parameter) {
         return parameter.first == "viscosity" || parameter.first == "picker";
       });
-  parameters.insert(after_dt, {"dt", info.model == "lsm" ? text_io::number(info.dt)
-                                                         : fmt::format("{}", info.dt)});
+  parameters.insert(
+      after_dt, {"dt", info.model == "lsm" ? text::number(info.dt) : fmt::format("{}", info.dt)});
   set_parameter(parameters, "picker", to_string(picker.reading));
   const auto set_number = [&parameters](const std::string &key, double value) {
     double there = 0.0;
-    const std::string *text = text_io::find(parameters, key);
-    if (!text || !text_io::parse(*text, there) || there != value)
+    const std::string *text = files::find(parameters, key);
+    if (!text || !text::parse(*text, there) || there != value)
       set_parameter(parameters, key, fmt::format("{}", value));
   };
   set_number("lambda", picker.lambda);
   set_number("min_size", filter.min_size);
-  if (filter.keep_nonpositive || text_io::find(parameters, "keep_nonpositive"))
+  if (filter.keep_nonpositive || files::find(parameters, "keep_nonpositive"))
     set_parameter(parameters, "keep_nonpositive", filter.keep_nonpositive ? "yes" : "no");
-  if (filter.warmup > 0.0 || text_io::find(parameters, "warmup"))
-    set_number("warmup", filter.warmup);
-  if (info.stride > 1) set_parameter(parameters, "stride", text_io::number(info.stride));
+  if (filter.warmup > 0.0 || files::find(parameters, "warmup")) set_number("warmup", filter.warmup);
+  if (info.stride > 1) set_parameter(parameters, "stride", text::number(info.stride));
   set_parameter(parameters, "picked_by", "postproc " POSTPROC_VERSION);
   return parameters;
 }
@@ -78,7 +77,7 @@ class Pick : public Analysis {
     EventPicker picker(picker_settings(picker_, info));
     FilterSettings settings = filter_settings(picker_, info);
     settings.warmup = 0.0;
-    if (const std::string *text = info.find("warmup")) text_io::parse(*text, settings.warmup);
+    if (const std::string *text = info.find("warmup")) text::parse(*text, settings.warmup);
     if (warmup_) settings.warmup = *warmup_;
     EventFilter filter(settings);
 

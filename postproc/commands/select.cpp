@@ -16,11 +16,11 @@ CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options
   CatalogueInfo info = table.info;
   std::string what;
   const auto add = [&what](const std::string &text) { what += (what.empty() ? "" : ", ") + text; };
-  if (std::isfinite(options.from_time)) add("t_start from " + text_io::number(options.from_time));
-  if (std::isfinite(options.to_time)) add("t_start below " + text_io::number(options.to_time));
+  if (std::isfinite(options.from_time)) add("t_start from " + text::number(options.from_time));
+  if (std::isfinite(options.to_time)) add("t_start below " + text::number(options.to_time));
   if (std::isfinite(options.min_size)) {
-    add("size from " + text_io::number(options.min_size));
-    set_parameter(info.parameters, "min_size", text_io::number(table.complete_from));
+    add("size from " + text::number(options.min_size));
+    set_parameter(info.parameters, "min_size", text::number(table.complete_from));
   }
   for (const std::string &condition : options.where) add(condition);
   if (what.empty()) what = "all events";

@@ -19,18 +19,18 @@ class SeriesText {
  public:
   static constexpr const char *begin = "# PE series\n";
   SeriesText(const std::string &path, const PeSeriesInfo &info) : file_(path, true) {
-    lines_ = begin + text_io::lines_of(info.header()) + "step,time,pe\n";
+    lines_ = begin + files::lines_of(info.header()) + "step,time,pe\n";
     file_.writer.create(path, "", true);
   }
   void add(std::int64_t step, double time, double pe) {
-    lines_ += fmt::format("{},{},{}\n", step, text_io::number(time), text_io::number(pe));
+    lines_ += fmt::format("{},{},{}\n", step, text::number(time), text::number(pe));
     if (lines_.size() > (1 << 16)) flush();
   }
   void flush() { file_.writer.write(std::exchange(lines_, {})); }
   void close() { file_.writer.close(); }
 
  private:
-  ClaimedFile<text_io::OutputFile> file_;
+  ClaimedFile<files::OutputFile> file_;
   std::string lines_;
 };
 

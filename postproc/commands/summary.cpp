@@ -108,7 +108,7 @@ class Summary : public CatalogueAnalysis {
     const double least = *std::min_element(thresholds_.begin(), thresholds_.end());
     const std::string *const text = table.info.find("dt");
     double dt = 0.0;
-    if (!text || !text_io::parse(*text, dt)) return std::nan("");
+    if (!text || !text::parse(*text, dt)) return std::nan("");
     std::int64_t brief = 0;
     for (const EventSummary &event : table.events)
       brief += event.size >= least && event.t_end - event.t_start <= (brief_ + 0.5) * dt;

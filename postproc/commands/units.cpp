@@ -61,7 +61,7 @@ class Units : public CatalogueAnalysis {
     const auto header = [&](const char *name, const char *quantity, const char *unit, double si) {
       double value = 0.0;
       const std::string *const text = fault.info.find(name);
-      if (text && text_io::parse(*text, value))
+      if (text && text::parse(*text, value))
         table.row({fault.label, quantity, value, unit, value * si});
     };
     header("length", "length of the fault", "km", units.length * 1e-3);

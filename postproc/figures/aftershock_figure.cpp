@@ -122,7 +122,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events, {} main shocks)", curve.label, a.fit.n,
                          a.sequences.main_shocks));
-    const auto exact = [](double value) { return text_io::number(value); };
+    const auto exact = [](double value) { return text::number(value); };
     const OmoriFit &fit = a.fit;
     plot.add_law(a.bins.front().lo, a.bins.back().hi,
                  fit.degenerate ? exact(fit.constant)

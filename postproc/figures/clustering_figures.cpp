@@ -134,8 +134,7 @@ std::string add_steady(Table &table, int number, const IntervalCurve &curve) {
     areas += fmt::format(
         "set object {0} rect from {1}, graph 0 to {2}, graph 1 fc rgb '#009e73' fs solid 0.18 "
         "noborder behind\nset label {0} '{3}' at {4}, graph 0.08 center\n",
-        ++area, text_io::number(left), text_io::number(right), one.n,
-        text_io::number(0.5 * (left + right)));
+        ++area, text::number(left), text::number(right), one.n, text::number(0.5 * (left + right)));
   }
   return areas;
 }
@@ -169,7 +168,7 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
                    "plot table using ($1 == {0} && strcol(2) eq 'count' ? $3 : NaN):5 with lines "
                    "lt 1 lw 1.5 notitle, \\\n     [{1}:{2}] '+' using "
                    "1:({3}*($1-({1}))/(({2})-({1}))) with lines lt 8 dt (6,4) notitle\n",
-                   number, text_io::number(first), text_io::number(last), curve.plot.starts.size());
+                   number, text::number(first), text::number(last), curve.plot.starts.size());
       });
 }
 

@@ -21,11 +21,11 @@ namespace {
 /// Adds the fitted density over the times that were fitted, dotted if the fit is rejected.
 void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
              const GeneralisedGammaFit &fit, bool rejected) {
-  plot.add_law(std::max(curve.plot.bins.front().lo, fit.lo), curve.plot.bins.back().hi,
-               fmt::format("{}*$1**({})*exp(-$1**({})/{})", text_io::number(fit.C),
-                           text_io::number(fit.gamma - 1.0), text_io::number(fit.delta),
-                           text_io::number(fit.B)),
-               fmt::format("lt {}{}", number, rejected ? " dt 3 lw 2" : " dt 1 lw 1.6"));
+  plot.add_law(
+      std::max(curve.plot.bins.front().lo, fit.lo), curve.plot.bins.back().hi,
+      fmt::format("{}*$1**({})*exp(-$1**({})/{})", text::number(fit.C),
+                  text::number(fit.gamma - 1.0), text::number(fit.delta), text::number(fit.B)),
+      fmt::format("lt {}{}", number, rejected ? " dt 3 lw 2" : " dt 1 lw 1.6"));
 }
 
 }  // namespace

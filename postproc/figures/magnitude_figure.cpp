@@ -59,7 +59,7 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
     }
     // The cumulative number counts from the lower edge of the bin, half a width below its centre.
     plot.add(Curves::data, fmt::format("table using (row({0})-{1}):5 with points lt {0}", number,
-                                       text_io::number(0.5 * curve.counting)));
+                                       text::number(0.5 * curve.counting)));
     plot.add(Curves::data,
              fmt::format("table using ($4 > 0 ? row({0}) : NaN):4 with points lt {0} ps 0.45*point",
                          number));
@@ -69,10 +69,10 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
              fmt::format("{} ({} events){}", curve.label, curve.magnitudes.size(),
                          b.degenerate ? "" : ": b = " + with_error(b.b, b.error, " ± ")));
     if (b.degenerate) continue;
-    const std::string from = text_io::number(curve.completeness);
+    const std::string from = text::number(curve.completeness);
     plot.add_law(curve.completeness,
                  *std::max_element(curve.magnitudes.begin(), curve.magnitudes.end()),
-                 fmt::format("{}*10**(-({})*($1-({})))", b.n, text_io::number(b.b), from),
+                 fmt::format("{}*10**(-({})*($1-({})))", b.n, text::number(b.b), from),
                  fmt::format("lt {}", number));
   }
   if (number == 0)

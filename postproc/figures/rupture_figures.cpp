@@ -32,7 +32,7 @@ std::string ratio_text_of(const LogFit &fit, const std::string &what) {
 void add_line(Curves &plot, const LogFit &fit, const std::string &colour, const std::string &what) {
   plot.add(Curves::laws,
            fmt::format("10**({} + {} * log10(x)) with lines lc rgb '{}' lw 1.6 dt 1",
-                       text_io::number(fit.intercept), text_io::number(fit.slope), colour),
+                       text::number(fit.intercept), text::number(fit.slope), colour),
            short_text_of(fit, what));
 }
 
@@ -69,8 +69,8 @@ void add_limit(Curves &plot, double limit, const Extent &heights) {
   const std::string style = "lc rgb '#777777' lw 1.6 dt (6,4)";
   plot.add(Curves::laws,
            fmt::format("'+' using ({}):({}):(0):({}) every ::::0 with vectors nohead {}",
-                       text_io::number(limit), text_io::number(heights.lo),
-                       text_io::number(heights.hi - heights.lo), style));
+                       text::number(limit), text::number(heights.lo),
+                       text::number(heights.hi - heights.lo), style));
   plot.add(Curves::laws, "keyentry with lines " + style,
            "detection limit: one bin in one interval");
 }
@@ -130,7 +130,7 @@ Figure moment_length_figure(const RuptureRelations &relations) {
   add_line(plot, fit, "#000000", "fit, whole fault excluded");
   plot.add(Curves::laws,
            fmt::format("{} * x**2 with lines lc rgb '#777777' dt (4,4)",
-                       text_io::number(std::pow(10.0, fit.intercept + fit.slope * 1.0) / 100.0)),
+                       text::number(std::pow(10.0, fit.intercept + fit.slope * 1.0) / 100.0)),
            "slope 2: constant stress drop");
   return plot.figure(std::move(table), axis("x", "Length of the rupture (model units)", true,
                                             relations.lengths.lo, relations.lengths.hi) +
@@ -163,7 +163,7 @@ Figure moment_pe_figure(const RuptureRelations &relations) {
     add_line(plot, alone, "#000000", "isolated");
   }
   const double ratio = any_alone ? alone.ratio : all.ratio;
-  plot.add(Curves::laws, text_io::number(ratio) + " * x with lines lc rgb '#D55E00' dt (6,4)",
+  plot.add(Curves::laws, text::number(ratio) + " * x with lines lc rgb '#D55E00' dt (6,4)",
            fmt::format("proportional: {} x moment", short_number(ratio, 2)));
   return plot.figure(std::move(table), axis("x", "Slip moment (model units)", true,
                                             relations.pe_moments.lo, relations.pe_moments.hi) +
@@ -418,7 +418,7 @@ Figure map_figure(const SlipMap &map, const Event &event, const std::vector<doub
           fmt::format("plot table using 1:2:($3*1e{}) with image", -power) + more +
           fmt::format(", \\\n     '+' using ({}):({}) every ::::0 with points pt 3 ps 1.6*point "
                       "lw 1.6 lc rgb '#0072B2'\n",
-                      text_io::number(map.x_first), text_io::number(map.z_first)),
+                      text::number(map.x_first), text::number(map.z_first)),
       {1000, height + 160}};
 }
 
@@ -457,7 +457,7 @@ Figure rupture_time_figure(const SlipMap &map, const Event &event, Table &lines)
   for (const auto &[level, at] : labels)
     settings += fmt::format("set label {} at {},{} center front boxed\n",
                             quote_plain("{/*0.8 " + short_number(level) + "}"),
-                            text_io::number(at.first), text_io::number(at.second));
+                            text::number(at.first), text::number(at.second));
   return map_figure(map, event, map.time, "time", "Time since the rupture began", settings,
                     ", \\\n     base.'-contours.csv' using 2:3:($4-$2):($5-$3) with vectors nohead "
                     "lc rgb '#000000' lw 1 dt 1");

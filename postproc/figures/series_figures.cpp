@@ -49,7 +49,7 @@ std::string roomy(Extent range) {
   const double middle = 0.5 * (range.lo + range.hi);
   double half = 0.56 * (range.hi - range.lo);
   if (!(half > 0.0)) half = middle == 0.0 ? 1.0 : 0.1 * std::fabs(middle);
-  return fmt::format("[{}:{}]", text_io::number(middle - half), text_io::number(middle + half));
+  return fmt::format("[{}:{}]", text::number(middle - half), text::number(middle + half));
 }
 
 constexpr const char *panels = R"(events = base."-events.csv"
@@ -99,20 +99,20 @@ Figure series_figure(const Thinner &curves, const std::string &title, double t0,
                    ", \\\n     events using 2:($3 - {}):(0):($5 > {} ? -$5 : NaN) with "
                    "vectors head filled size screen 0.005,18 lw 1.2 dt 1 lc rgb '#D55E00' "
                    "title 'size of the event'",
-                   text_io::number(shift), text_io::number(shortest))
+                   text::number(shift), text::number(shortest))
              : "";
   Extent change = curves.range(1), smoothed = curves.range(2);
   for (Extent *range : {&change, &smoothed}) range->add(0.0);
   return {std::move(table),
           fmt::format(
-              panels, fmt::arg("title", quote(title)), fmt::arg("t0", text_io::number(t0)),
-              fmt::arg("t1", text_io::number(t1)),
+              panels, fmt::arg("title", quote(title)), fmt::arg("t0", text::number(t0)),
+              fmt::arg("t1", text::number(t1)),
               fmt::arg("pe_label", shifted ? fmt::format("'PE - {}'", short_number(shift, 8))
                                            : "'Potential energy'"),
               fmt::arg("pe_range", roomy({pe.lo - shift, pe.hi - shift})),
               fmt::arg("events_named", fmt::format(fmt::runtime(shade), "title 'event'")),
               fmt::arg("events_plain", fmt::format(fmt::runtime(shade), "notitle")),
-              fmt::arg("shift", text_io::number(shift)), fmt::arg("arrows", arrows),
+              fmt::arg("shift", text::number(shift)), fmt::arg("arrows", arrows),
               fmt::arg("change_range", roomy(change)), fmt::arg("smoothed_range", roomy(smoothed)),
               fmt::arg("smoothed_label",
                        fmt::format("'smoothed ({}, {{/Symbol l}} = {}); an event where negative'",

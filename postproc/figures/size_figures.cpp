@@ -66,7 +66,7 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
     const std::int64_t curve = line.catalogue < numbers.size() ? numbers[line.catalogue] : 0;
     curves.add_law(
         line.lo, line.hi,
-        fmt::format("{}*$1**({})", text_io::number(line.amplitude), text_io::number(line.slope)),
+        fmt::format("{}*$1**({})", text::number(line.amplitude), text::number(line.slope)),
         fmt::format("lt {} dt {} lw 2.2", curve > 0 ? curve : 8, line.dash), line.title);
   }
   return curves.figure(
@@ -95,7 +95,7 @@ namespace {
 /// Adds the laws fitted to the characteristic sizes, over a range of lengths.
 void add_laws(Curves &curves, const ScalingFit &fit, std::int64_t number, const Extent &lengths) {
   const double lo = 0.85 * lengths.lo, hi = lengths.hi / 0.85;
-  const auto exact = [](double value) { return text_io::number(value); };
+  const auto exact = [](double value) { return text::number(value); };
   curves.add_law(lo, hi, fmt::format("{}*$1**({})", exact(fit.A), exact(fit.D)),
                  fmt::format("lt {}", number),
                  fmt::format("A L^D with D = {}", with_error(fit.D, fit.se_D, " ± ")), quote_plain);

@@ -28,7 +28,7 @@ double time_unit(const CatalogueInfo &info, const std::string &path, bool displa
   if (!displacement) return 1.0;
   double velocity = 0.0;
   const std::string *text = info.find("velocity");
-  if (!text || !text_io::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
+  if (!text || !text::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
     throw FileError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
                     " in the header, expected one that is not 0 for --displacement");
   return std::fabs(velocity);
@@ -43,7 +43,7 @@ std::string label_of(const EventTable &table) {
 
 }  // namespace
 
-void set_parameter(text_io::Parameters &parameters, const std::string &key,
+void set_parameter(files::Parameters &parameters, const std::string &key,
                    const std::string &value) {
   for (auto &[name, old] : parameters)
     if (name == key) {
@@ -61,7 +61,7 @@ constexpr std::size_t head_size = 1 << 16;  // bytes that are enough to detect a
 /// unpack to anything.
 /// \throws FileError if the file, or a line of it (except in XML and JSON), is longer than any can
 /// be
-std::string all_of(text_io::Bytes &bytes, const std::string &format) {
+std::string all_of(files::Bytes &bytes, const std::string &format) {
   constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
   std::string out;
   std::size_t line = 0;  // where the last line begins
@@ -106,7 +106,7 @@ bool choose(const ReadEvent &event, double from, double to, const CatalogueOptio
   return false;
 }
 
-EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &format,
+EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format,
                                   const CatalogueOptions &options, const UseEvent &use,
                                   const UseTable &begin) {
   const std::string &path = bytes.path();
@@ -165,7 +165,7 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
   return table;
 }
 
-EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const CatalogueOptions &options,
+EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const CatalogueOptions &options,
                              const UseEvent &use, const UseTable &begin) {
   const std::string path = bytes->path();
   CatalogueReader reader(std::move(bytes), options.lenient);
@@ -175,7 +175,7 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.label = label_of(table);
   // The reader has refused headers whose min_size is not a number.
   if (const std::string *text = table.info.find("min_size"))
-    text_io::parse(*text, table.complete_from);
+    text::parse(*text, table.complete_from);
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
@@ -204,13 +204,13 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const UseEvent &use, const UseTable &begin) {
   // The format is detected on the open file, as a pipe can be read only once.
-  std::unique_ptr<text_io::Bytes> bytes = open_input(path);
+  std::unique_ptr<files::Bytes> bytes = open_input(path);
   const std::string_view head = bytes->peek(head_size);
   const std::string format = options.format == "detect" ? detect_format(head) : options.format;
   if (options.format == "detect" && format == "models" && !head.empty() &&
-      head.find(catalogue_magic) > 3 /* of a byte order mark */ && !text_io::is_utf16(head))
+      head.find(catalogue_magic) > 3 /* of a byte order mark */ && !files::is_utf16(head))
     throw FileError(fmt::format("{}not a catalogue, expected '{}1' of a model, or earthquakes: {}",
-                                text_io::where(path, 1), catalogue_magic, earthquake_formats));
+                                text::where(path, 1), catalogue_magic, earthquake_formats));
   return format == "models" ? read_model_events(std::move(bytes), options, use, begin)
                             : read_earthquake_events(*bytes, format, options, use, begin);
 }

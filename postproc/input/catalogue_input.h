@@ -63,8 +63,7 @@ void add_threshold(OptionGroup group, Threshold &threshold, const std::string &w
 void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what);
 
 /// Changes the value of a parameter, or adds the parameter at the end.
-void set_parameter(text_io::Parameters &parameters, const std::string &key,
-                   const std::string &value);
+void set_parameter(files::Parameters &parameters, const std::string &key, const std::string &value);
 
 /// Reads a catalogue of any size event by event, without keeping the events.
 /// \param use called with each event that the options select

@@ -21,10 +21,10 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
       const std::optional<double> date = parse_date(text);
       if (date)
         day = *date;
-      else if (!text_io::parse(text, time))
+      else if (!text::parse(text, time))
         throw std::invalid_argument(fmt::format(
             "{} {}: expected a model time, or for earthquakes a date such as 1984-01-01", option,
-            text_io::in_quotes(text)));
+            text::in_quotes(text)));
     }
   };
   group.call<std::vector<std::string>>(option, read, help + "; may be given once per catalogue",

@@ -61,7 +61,7 @@ bool take_clock(std::string_view &text, int &hour, int &minute, double &second) 
   if (!take(text, 2, hour) || !take(text, ":") || !take(text, 2, minute)) return false;
   if (!take(text, ":")) return true;
   const std::size_t end = text.find_first_not_of("0123456789.");
-  const bool good = text_io::parse(text.substr(0, end), second);
+  const bool good = text::parse(text.substr(0, end), second);
   text.remove_prefix(std::min(end, text.size()));
   return good;
 }
@@ -190,7 +190,7 @@ std::optional<double> time_in_parts(const Record &record) {
   std::array<double, 6> v{};  // year, month, day, hour, minute, second
   for (std::size_t i = 0; i < v.size(); ++i) {
     const std::string_view text = record.texts[year + i];
-    if (!text_io::parse(text, v[i]) && !(i >= 3 && is_missing(text))) return {};
+    if (!text::parse(text, v[i]) && !(i >= 3 && is_missing(text))) return {};
     if (i > 0 && i < 5 && (v[i] < 0.0 || v[i] > 60.0 || v[i] != std::floor(v[i]))) return {};
   }
   if (!(v[0] >= 100.0 && v[0] < 1e4)) return {};
@@ -223,8 +223,8 @@ class Collector {
         value = NAN;
         return true;
       }
-      if (text_io::parse(text, value) && std::fabs(value) <= most) return true;
-      bad(line, fmt::format("{} is {}, expected a number", name, text_io::in_quotes(text)));
+      if (text::parse(text, value) && std::fabs(value) <= most) return true;
+      bad(line, fmt::format("{} is {}, expected a number", name, text::in_quotes(text)));
       return false;
     };
     const std::optional<double> at = time_of(record);
@@ -234,8 +234,7 @@ class Collector {
         !number(longitude, "longitude", 360.0, event.longitude))
       return;
     // A depth only goes on to other files.
-    event.depth =
-        text_io::parse(record[depth], event.depth) ? event.depth / record.depth_per_km : NAN;
+    event.depth = text::parse(record[depth], event.depth) ? event.depth / record.depth_per_km : NAN;
     if (is_no_earthquake(record[type]))
       ++list_.others[record[type]];
     else if (is_missing(record[magnitude]))
@@ -264,8 +263,8 @@ class Collector {
     std::string types;
     for (const auto &[name, count] : list_.others) {
       others += count;
-      types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count,
-                           text_io::in_quotes(name));
+      types +=
+          fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, text::in_quotes(name));
     }
     const auto all =
         others + list_.without_magnitude + static_cast<std::int64_t>(list_.events.size());
@@ -281,14 +280,14 @@ class Collector {
 
  private:
   std::string where(std::int64_t number) const {
-    return unit_.empty() ? text_io::where(path_, number)
+    return unit_.empty() ? text::where(path_, number)
                          : fmt::format("{}: {} {}: ", path_, unit_, number);
   }
   static std::string bad_time(const Record &record) {
     std::string text = record[time];
     for (const Field field : {date, year, month, day, hour, minute, second})
       if (!record[field].empty()) text += (text.empty() ? "" : " ") + record[field];
-    return "time is " + text_io::in_quotes(text) +
+    return "time is " + text::in_quotes(text) +
            ", expected a date and time such as 1994-01-17T12:30:55.39Z";
   }
 
@@ -311,12 +310,12 @@ struct Lines {
       rest.remove_prefix(end);
       rest.remove_prefix(rest.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, rest.size()));
       ++number;
-      if (!text_io::trim(line).empty() && (comments || !is_comment())) return true;
+      if (!text::trim(line).empty() && (comments || !is_comment())) return true;
     }
     return false;
   }
   bool is_comment() const {
-    const char first = text_io::trim(line).front();
+    const char first = text::trim(line).front();
     return first == '#' || first == '%';
   }
 };
@@ -370,8 +369,7 @@ Places places_in(const Fields &names) {
 Record record_of(const Fields &values, const Places &places) {
   Record record;
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i] >= 0)
-      record.texts[i] = text_io::trim(values[static_cast<std::size_t>(places[i])]);
+    if (places[i] >= 0) record.texts[i] = text::trim(values[static_cast<std::size_t>(places[i])]);
   return record;
 }
 
@@ -485,7 +483,7 @@ void read_geojson(std::string_view content, Collector &out) {
       if (coordinates.size() > 2) record[depth] = text_of(coordinates[2]);
     }
     double milliseconds = 0.0;
-    if (text_io::parse(record[time], milliseconds)) record.at = milliseconds / 86400e3;
+    if (text::parse(record[time], milliseconds)) record.at = milliseconds / 86400e3;
     out.add(record, number);
   }
 }
@@ -497,7 +495,7 @@ void read_scedc(std::string_view content, Collector &out) {
     Fields f = split_blanks(lines.line);
     double number = 0.0;
     for (const std::size_t text : {3u, 5u})  // a number instead: the text is missing
-      if (f.size() > text && text_io::parse(f[text], number))
+      if (f.size() > text && text::parse(f[text], number))
         f.insert(f.begin() + static_cast<std::ptrdiff_t>(text), std::string());
     if (f.size() < 9) {
       out.bad(lines.number, fmt::format("{} fields, expected date, time, event type, place type, "
@@ -527,7 +525,7 @@ void read_zmap(std::string_view content, Collector &out) {
     double number = 0.0;
     bool good = f.size() >= 9;
     for (std::size_t i = 0; good && i < std::min(f.size(), std::size(columns)); ++i) {
-      good = text_io::parse(f[i], number) || is_missing(f[i]);
+      good = text::parse(f[i], number) || is_missing(f[i]);
       record[columns[i]] = f[i];
     }
     record.at = good ? time_in_parts(record) : std::nullopt;
@@ -545,9 +543,9 @@ void read_zmap(std::string_view content, Collector &out) {
 /// \param found set to false if the file lacks the one that is given
 pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by,
                          bool &found) {
-  const std::string_view id = text_io::trim(event.child_value(by));
+  const std::string_view id = text::trim(event.child_value(by));
   for (const pugi::xml_node &one : event.children(name))
-    if (!id.empty() && text_io::trim(one.attribute("publicID").value()) == id) return one;
+    if (!id.empty() && text::trim(one.attribute("publicID").value()) == id) return one;
   if (!id.empty()) found = false;
   return event.child(name);
 }
@@ -578,14 +576,14 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
     const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID", found);
     const pugi::xml_node size = preferred(event, "magnitude", "preferredMagnitudeID", found);
     const auto value = [](const pugi::xml_node &of, const char *name) {
-      return text_io::trim(of.child(name).child_value("value"));
+      return text::trim(of.child(name).child_value("value"));
     };
     Record record;
     record[time] = value(origin, "time");
     record[latitude] = value(origin, "latitude");
     record[longitude] = value(origin, "longitude");
     record[magnitude] = value(size, "mag");
-    record[type] = text_io::trim(event.child_value("type"));
+    record[type] = text::trim(event.child_value("type"));
     record[depth] = value(origin, "depth");
     record.depth_per_km = 1000.0;
     if (!found) out.add_unpreferred();
@@ -637,12 +635,12 @@ Region parse_region(std::string_view text) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     const std::size_t slash = rest.find('/');
     good = good && (slash == std::string_view::npos) == (i == 3) &&
-           text_io::parse(rest.substr(0, slash), v[i]);
+           text::parse(rest.substr(0, slash), v[i]);
     rest.remove_prefix(slash == std::string_view::npos ? rest.size() : slash + 1);
   }
   if (!good || !(v[2] < v[3]) || std::fabs(v[2]) > 90.0 || std::fabs(v[3]) > 90.0 ||
       std::fabs(v[0]) > 360.0 || std::fabs(v[1]) > 360.0 || v[0] == v[1] || v[0] - v[1] >= 360.0)
-    throw std::invalid_argument("--region " + text_io::in_quotes(text) +
+    throw std::invalid_argument("--region " + text::in_quotes(text) +
                                 ", expected W/E/S/N in degrees, such as -122/-114/32/37");
   return {v[0], v[1], v[2], v[3]};
 }
@@ -651,7 +649,7 @@ std::string detect_format(std::string_view content) {
   content = without_mark(content);
   Lines lines{content};
   if (content.substr(0, catalogue_magic.size()) == catalogue_magic) return "models";
-  const std::string_view first = lines.next() ? text_io::trim(lines.line) : std::string_view();
+  const std::string_view first = lines.next() ? text::trim(lines.line) : std::string_view();
   if (first.substr(0, 1) == "<") return "quakeml";
   if (first.substr(0, 1) == "{") return "geojson";
   Lines again{content};
@@ -661,7 +659,7 @@ std::string detect_format(std::string_view content) {
   double number = 0.0;
   const bool numbers =
       fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 9, [&](auto &field) {
-        return text_io::parse(field, number) || is_missing(field);
+        return text::parse(field, number) || is_missing(field);
       });
   return numbers ? "zmap" : "models";
 }
@@ -670,7 +668,7 @@ EarthquakeList read_earthquakes(std::string_view content, const std::string &for
                                 const std::string &path, bool lenient) {
   Collector out(path, lenient);
   content = without_mark(content);
-  if (text_io::is_utf16(content)) throw FileError(path + text_io::utf16_text);
+  if (files::is_utf16(content)) throw FileError(path + files::utf16_text);
   if (content.substr(0, (1 << 16)).find('\0') != std::string_view::npos)
     throw FileError(path + ": has bytes of 0, expected text");
   if (format == "csv") read_columns(content, out);

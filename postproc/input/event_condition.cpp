@@ -22,17 +22,17 @@ EventCondition parse_condition(const std::string &text) {
   const std::size_t at = text.find_first_of("<>=!");
   for (const auto &[word, is] : words) {
     if (at == std::string::npos || text.compare(at, word.size(), word) != 0) continue;
-    const std::string column(text_io::trim(std::string_view(text).substr(0, at)));
+    const std::string column(text::trim(std::string_view(text).substr(0, at)));
     EventCondition out{column, is, 0.0};
     if (!column.empty() &&
-        text_io::parse(text_io::trim(std::string_view(text).substr(at + word.size())), out.number))
+        text::parse(text::trim(std::string_view(text).substr(at + word.size())), out.number))
       return out;
     break;
   }
   throw std::invalid_argument(
       fmt::format("--where {}: expected a column, one of < <= > >= = != and a number, such as "
                   "'peak_slip > 0.001'",
-                  text_io::in_quotes(text)));
+                  text::in_quotes(text)));
 }
 
 EventConditions::EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,

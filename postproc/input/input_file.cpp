@@ -17,7 +17,7 @@ namespace LSM::postproc {
 // zlib and liblzma themselves, as libarchive does not verify the checksum of gzip.
 namespace {
 
-using text_io::Bytes;
+using files::Bytes;
 
 /// The decompressed bytes of a file.
 class Unpacked : public Bytes {
@@ -118,8 +118,8 @@ class Unxzed : public Unpacked {
 }  // namespace
 
 std::unique_ptr<Bytes> open_input(const std::string &path) {
-  auto bytes = std::make_unique<text_io::FileBytes>(path);
-  const std::string_view program = text_io::compressed_by(*bytes);
+  auto bytes = std::make_unique<files::FileBytes>(path);
+  const std::string_view program = files::compressed_by(*bytes);
   if (program == "gzip") return std::make_unique<Gunzipped>(std::move(bytes));
   if (program == "xz") return std::make_unique<Unxzed>(std::move(bytes));
   if (!program.empty())

@@ -18,7 +18,7 @@ namespace LSM::postproc {
 /// compressed files are verified.
 /// \throws FileError if the file cannot be opened or is compressed by another program; while
 /// reading, also if it is damaged or truncated
-std::unique_ptr<text_io::Bytes> open_input(const std::string &path);
+std::unique_ptr<files::Bytes> open_input(const std::string &path);
 
 /// Opens a slip history.
 /// \param lenient drop a truncated last record and report it on standard error

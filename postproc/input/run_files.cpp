@@ -38,11 +38,11 @@ std::string file_beside(const std::string &catalogue, const std::string &ending)
 /// Describes a setting of the run that differs between two headers; "" if there is none.
 std::string other_run(const HeaderOf &one, const HeaderOf &other) {
   for (const auto &[key, value] : one.parameters) {
-    const std::string *const there = text_io::find(other.parameters, key);
+    const std::string *const there = files::find(other.parameters, key);
     double a = 0.0, b = 0.0;
     const HeaderKey *const known = header_key(key);
     if (!there || *there == value || (known && known->of == HeaderKey::Of::recording) ||
-        (text_io::parse(value, a) && text_io::parse(*there, b) && a == b))
+        (text::parse(value, a) && text::parse(*there, b) && a == b))
       continue;
     return fmt::format("{}: {} = {}, but {} in {}", other.path, key, *there, value, one.path);
   }

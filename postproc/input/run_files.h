@@ -17,7 +17,7 @@ namespace LSM::postproc {
 /// The parameters in the header of a file.
 struct HeaderOf {
   std::string path;
-  text_io::Parameters parameters;
+  files::Parameters parameters;
 };
 /// Checks that two files are from the same run, as files with the same prefix may not be. Settings
 /// of what is recorded may differ.

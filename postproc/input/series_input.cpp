@@ -37,7 +37,7 @@ SeriesRegime SeriesInput::about() const {
   about.path = path_;
   about.model = info().model;
   for (const char *const key : {"length", "blocks"})
-    if (const std::string *text = info().find(key)) text_io::parse(*text, about.length);
+    if (const std::string *text = info().find(key)) text::parse(*text, about.length);
   return about;
 }
 
@@ -79,14 +79,14 @@ PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo 
                                             options.time_name(), to_string(s.reading)));
   // The series has only every stride-th step, and the memory has to be as long in steps.
   const std::string *lambda = info.find("lambda");
-  if (lambda && text_io::parse(*lambda, s.lambda) && exponential && info.stride > 1)
+  if (lambda && text::parse(*lambda, s.lambda) && exponential && info.stride > 1)
     s.lambda = std::pow(s.lambda, static_cast<double>(info.stride));
   return options.over(s, info.dt * static_cast<double>(info.stride));
 }
 
 FilterSettings filter_settings(const PickerOptions &options, const PeSeriesInfo &info) {
   FilterSettings s;
-  if (const std::string *text = info.find("min_size")) text_io::parse(*text, s.min_size);
+  if (const std::string *text = info.find("min_size")) text::parse(*text, s.min_size);
   const std::string *keep = info.find("keep_nonpositive");
   s.keep_nonpositive = keep && *keep == "yes";
   return options.over(s);

@@ -83,7 +83,7 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
     }
   }
   const auto end = [](double value) {
-    return std::isfinite(value) ? text_io::number(value) : std::string("*");
+    return std::isfinite(value) ? text::number(value) : std::string("*");
   };
   if (std::isfinite(lo) || std::isfinite(hi))
     out += fmt::format("set {}range [{}:{}]\n", name, end(lo), end(hi));
@@ -124,8 +124,8 @@ void Curves::add_data(std::int64_t curve, int y, int error, const std::string &t
 void Curves::add_law(double lo, double hi, const std::string &formula, const std::string &style,
                      const std::string &title, std::string (*quoted)(std::string_view)) {
   add(laws,
-      fmt::format("[{}:{}] '+' using 1:({}) with lines {}", text_io::number(lo),
-                  text_io::number(hi), formula, style),
+      fmt::format("[{}:{}] '+' using 1:({}) with lines {}", text::number(lo), text::number(hi),
+                  formula, style),
       title, quoted);
 }
 

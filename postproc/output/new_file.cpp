@@ -40,7 +40,7 @@ void check_output(const std::string &path, bool overwrite, const Known &known) {
   const fs::path folder = fs::absolute(path, code).parent_path();
   if (fs::exists(folder, code)) {
     const FileLock lock = claim_output(path, true);
-    const std::string problem = text_io::why_not_writable(path);
+    const std::string problem = files::why_not_writable(path);
     if (!problem.empty()) throw FileError(problem);
     return;
   }
@@ -53,7 +53,7 @@ void check_output(const std::string &path, bool overwrite, const Known &known) {
 
 void write_file(const std::string &path, std::string_view text) {
   const FileLock lock = claim_output(path, true);
-  text_io::write_file(path, text);
+  files::write_file(path, text);
 }
 
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs) {

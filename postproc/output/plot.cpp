@@ -60,7 +60,7 @@ std::string gnuplot_message(const std::string &text) {
   std::string warning, last;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    const std::string trimmed(text_io::trim(line));
+    const std::string trimmed(text::trim(line));
     // In a locale that is not UTF-8, gnuplot prints the harmless "iconv failed" for every picture.
     if (trimmed.empty() || trimmed.find("iconv failed") != std::string::npos) continue;
     if (warning.empty() && trimmed.find("warning: ") != std::string::npos)
@@ -218,7 +218,7 @@ void check_outputs(const Figure &figure, const PictureOptions &options) {
                [&](std::string_view head) { return figure.table.like(head); });
   check_output(script, options.overwrite, drawn);
   // Pictures cannot be recognized by their content, only by the script beside them.
-  const bool ours = text_io::holds_data(script);
+  const bool ours = files::holds_data(script);
   for (const char *const ending : {".png", ".svg"})
     if (!options.no_picture) check_output(base + ending, options.overwrite || ours);
 }

@@ -76,7 +76,7 @@ std::string parameter_section(const std::vector<EventTable> &tables) {
     for (const EventTable &table : tables) {
       const std::string *text = table.info.find(key);
       double value = 0.0;
-      if (text && text->size() > 8 && text_io::parse(*text, value))
+      if (text && text->size() > 8 && text::parse(*text, value))
         out.add(short_number(value, 10));  // numbers in headers have up to 17 digits
       else
         out.add(text ? *text : "–");

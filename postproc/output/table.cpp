@@ -20,15 +20,15 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string csv_field(double value) {
-  return std::isnan(value) ? std::string() : text_io::number(value);
+  return std::isnan(value) ? std::string() : text::number(value);
 }
 
-std::string csv_field(std::int64_t value) { return text_io::number(value); }
+std::string csv_field(std::int64_t value) { return text::number(value); }
 
 std::string csv_field(const std::string &text) {
   double number = 0.0;
-  const bool formula = !text.empty() && std::string_view("=+-@\t\r").find(text[0]) < 6 &&
-                       !text_io::parse(text, number);
+  const bool formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text[0]) < 6 && !text::parse(text, number);
   const std::string guard = formula ? "'" : "";
   if (text.find_first_of(",\"#\n\r") == std::string::npos) return guard + text;
   std::string quoted = "\"" + guard;
@@ -130,7 +130,7 @@ Table::Table(const std::vector<std::string> &names) {
 
 Table::Table(std::string_view names) {
   std::vector<std::string_view> fields;
-  text_io::split(names, fields);
+  text::split(names, fields);
   for (const std::string_view name : fields) columns_.push_back({std::string(name), {}});
 }
 
@@ -230,7 +230,7 @@ std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus
       if (const auto *text = std::get_if<std::string>(&cells_[k]))
         column.push_back(*text);
       else if (const auto *count = std::get_if<std::int64_t>(&cells_[k]))
-        column.push_back(text_io::number(*count));
+        column.push_back(text::number(*count));
       else if (const auto *number = std::get_if<double>(&cells_[k]))
         column.push_back(short_number(*number, shown.digits));
       else {

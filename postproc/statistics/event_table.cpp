@@ -19,7 +19,7 @@ double EventTable::length() const {
   double value = 0.0;
   for (const char *key : {"length", "blocks"}) {
     const std::string *text = info.find(key);
-    if (text && text_io::parse(*text, value) && value > 0.0) return value;
+    if (text && text::parse(*text, value) && value > 0.0) return value;
   }
   return NAN;
 }
@@ -29,8 +29,8 @@ double EventTable::picker_memory() const {
   double dt = 0.0, lambda = 0.0, stride = 1.0;
   const std::string *const step = info.find("dt"), *const rate = info.find("lambda"),
                            *const every = info.find("stride"), *const reading = info.find("picker");
-  if (!step || !text_io::parse(*step, dt) || !rate || !text_io::parse(*rate, lambda)) return NAN;
-  if (every) text_io::parse(*every, stride);
+  if (!step || !text::parse(*step, dt) || !rate || !text::parse(*rate, lambda)) return NAN;
+  if (every) text::parse(*every, stride);
   double left = lambda;  // factor of the average change after one more sample
   if (reading && *reading == "average")
     left = lambda / (1.0 + lambda);

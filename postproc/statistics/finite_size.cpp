@@ -20,7 +20,7 @@ namespace LSM::postproc {
 
 namespace {
 
-using text_io::number;
+using text::number;
 
 // AICc: chi2 + 2 k with the correction for few points (Hurvich & Tsai 1989, Biometrika 76, 297).
 double corrected_aic(double chi2, int k, int points) {

@@ -31,7 +31,7 @@ namespace LSM::postproc {
 
 namespace {
 
-using text_io::number;
+using text::number;
 
 // Internally, theta is measured in units of a reference (v = ln theta - reference), and the
 // parameters are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1)

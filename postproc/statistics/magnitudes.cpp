@@ -110,8 +110,8 @@ std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitud
   const auto [low, high] = std::minmax_element(magnitudes.begin(), magnitudes.end());
   if (!magnitudes.empty() &&
       (!((*high - *low) / width < most) || !(std::fabs(*high) / width < 1e15)))
-    throw std::invalid_argument("magnitudes from " + text_io::number(*low) + " to " +
-                                text_io::number(*high) + " in bins of " + text_io::number(width) +
+    throw std::invalid_argument("magnitudes from " + text::number(*low) + " to " +
+                                text::number(*high) + " in bins of " + text::number(width) +
                                 ", expected fewer than 1e5 bins: a smaller --magnitude-slope or "
                                 "wider bins");
   for (const double m : magnitudes) ++counts[static_cast<std::int64_t>(bin_of(m, width))];

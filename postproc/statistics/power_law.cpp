@@ -24,7 +24,7 @@ namespace LSM::postproc {
 
 namespace {
 
-using text_io::number;
+using text::number;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t least_events = 10;

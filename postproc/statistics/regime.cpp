@@ -17,7 +17,7 @@ double stick_slip_above(double length) {
 
 double length_of(const PeSeriesInfo &info) {
   double length = NAN;
-  if (const std::string *text = info.find("length")) text_io::parse(*text, length);
+  if (const std::string *text = info.find("length")) text::parse(*text, length);
   return length;
 }
 

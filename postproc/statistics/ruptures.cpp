@@ -101,7 +101,7 @@ std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity q
   std::vector<LogBin> bins;
   if (quantity == RuptureQuantity::length) {
     double bin = 1.0;
-    if (const std::string *text = table.info.find("slip_bin")) text_io::parse(*text, bin);
+    if (const std::string *text = table.info.find("slip_bin")) text::parse(*text, bin);
     if (!(bin > 0.0))
       throw std::runtime_error(table.path + ": slip_bin in the header is not positive");
     bins = length_bins(table, bin);
@@ -121,12 +121,12 @@ double smallest_moment(const CatalogueInfo &info) {
   for (const char *const key : {"modulus", "slip_velocity", "interval", "dt", "slip_bin"}) {
     const std::string *const text = info.find(key);
     double value = 0.0;
-    if (!text || !text_io::parse(*text, value) || !(value > 0.0)) return 0.0;
+    if (!text || !text::parse(*text, value) || !(value > 0.0)) return 0.0;
     moment *= value;
   }
   double height = 0.0;  // of the cells of a plane
   const std::string *const text = info.find("slip_bin_dip");
-  return text && text_io::parse(*text, height) ? moment * height : moment;
+  return text && text::parse(*text, height) ? moment * height : moment;
 }
 
 namespace {

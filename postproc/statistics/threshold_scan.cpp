@@ -19,7 +19,7 @@ constexpr std::size_t fewest = 20;
 /// mantissa x 10^decade, parsed from text: the double nearest to 1.3e-3 is not 1.3 * 1e-3.
 double decimal(double mantissa, int decade) {
   double value = 0.0;
-  text_io::parse(fmt::format("{:.1f}e{}", mantissa, decade), value);
+  text::parse(fmt::format("{:.1f}e{}", mantissa, decade), value);
   return value;
 }
 

@@ -21,7 +21,7 @@ struct History {
   std::vector<double> slip;  // in the end, of each bin
 
   explicit History(const std::string &path) {
-    LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path));
+    LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
     info = reader.info();
     scale = std::stod(*info.find("scale"));
     slip.assign(static_cast<std::size_t>(info.grid.bins), 0.0);

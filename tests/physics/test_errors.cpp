@@ -112,7 +112,7 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
       // The strict readers refuse anything that is not finite; the catalogue agrees with the
       // series.
       const auto found = unit::read_catalogue(path("blown.csv")).events;
-      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("blown.pe")));
+      LSM::PeSeriesReader series(LSM::files::open_plain(path("blown.pe")));
       LSM::PickerSettings settings;
       settings.reading = LSM::PickerReading::literal;
       LSM::EventPicker later(settings);

@@ -398,7 +398,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   std::map<double, double> model;  // time of each step
   for (const auto &row : r.thermo) model[row.at("Step")] = row.at("f_leap");
 
-  LSM::PeSeriesReader reader(LSM::text_io::open_plain(path("samples.pe")));
+  LSM::PeSeriesReader reader(LSM::files::open_plain(path("samples.pe")));
   EXPECT_TRUE(reader.info().explicit_times);
   std::int64_t step = 0, samples = 0;
   double time = 0.0, pe = 0.0;
@@ -412,7 +412,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const auto ruptures = unit::read_catalogue(path("samples.ruptures"));
   ASSERT_GE(ruptures.events.size(), 3u);
   // Slip is compared with the largest velocity of the plates.
-  EXPECT_EQ(*ruptures.info.find("driving"), LSM::text_io::number(0.01));
+  EXPECT_EQ(*ruptures.info.find("driving"), LSM::text::number(0.01));
   for (const auto &e : ruptures.events) {
     EXPECT_NEAR(e.t_start, model.at(static_cast<double>(e.step_start)), 1e-12 * e.t_start);
     EXPECT_NEAR(e.t_end, model.at(static_cast<double>(e.step_end)), 1e-12 * e.t_end);

@@ -46,7 +46,7 @@ static std::string moved(const std::vector<Motion> &motions) {
 }
 
 static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
-  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path));
+  LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
   std::vector<LSM::SlipRecord> records;
   for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
   return records;

@@ -39,7 +39,7 @@ static std::string moved(const std::vector<std::pair<int, double>> &bins, int st
 }
 
 static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
-  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path));
+  LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
   std::vector<LSM::SlipRecord> records;
   LSM::SlipRecord record;
   while (reader.next(record)) records.push_back(record);
@@ -119,7 +119,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
 
       // All slip of the fault belongs to ruptures, or is below the velocity, as in bin 5.
       const LSM::SlipHistoryInfo info =
-          LSM::SlipHistoryReader(LSM::text_io::open_plain(path("moved.slip"))).info();
+          LSM::SlipHistoryReader(LSM::files::open_plain(path("moved.slip"))).info();
       const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
       EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * 0.04 + 0.06 - 0.05, close * 0.23);
       // The last of the ten intervals belongs to an incomplete record.
@@ -198,7 +198,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   EXPECT_EQ(r.last("c_events[18]"), static_cast<double>(catalogue.events.size()));
   EXPECT_EQ(r.last("c_events[19]"), catalogue.events.back().size);
   const LSM::SlipHistoryInfo info =
-      LSM::SlipHistoryReader(LSM::text_io::open_plain(path("found.slip"))).info();
+      LSM::SlipHistoryReader(LSM::files::open_plain(path("found.slip"))).info();
   const auto records = records_of(path("found.slip"));
   const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
   std::vector<LSM::Event> expected;
@@ -237,7 +237,7 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
     ASSERT_TRUE(succeeded(run_text(sheared(found + std::string("quiet 1 ")) + "run 6000\n",
                                    {{"prefix", prefix}}, ranks)));
     const LSM::SlipHistoryInfo info =
-        LSM::SlipHistoryReader(LSM::text_io::open_plain(path(prefix + ".slip"))).info();
+        LSM::SlipHistoryReader(LSM::files::open_plain(path(prefix + ".slip"))).info();
     const auto records = records_of(path(prefix + ".slip"));
     const double factor = info.ruptures.modulus * info.grid.width;
     const auto slip_between = [&records](std::int64_t from, std::int64_t to, std::size_t bin) {
@@ -255,7 +255,7 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
     for (std::size_t b = 0; b < bins; ++b) whole += factor * slip_between(0, 6000, b);
 
     const auto drops = unit::read_catalogue(path(prefix + ".drops"));
-    EXPECT_EQ(*drops.info.find("modulus"), LSM::text_io::number(info.ruptures.modulus));
+    EXPECT_EQ(*drops.info.find("modulus"), LSM::text::number(info.ruptures.modulus));
     ASSERT_GT(drops.events.size(), 3u);
     double in_drops = 0.0;
     for (const auto &e : drops.events) {
@@ -390,7 +390,7 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
   EXPECT_TRUE(failed_with(run_text(from + fault_shear(found) + "run 10\n", {{"prefix", "there"}}),
                           {"exists", "no slip of compute events"}));
   ASSERT_TRUE(succeeded(run_text(from + fault_shear(found) + "run 100\n", {{"prefix", "begun"}})));
-  EXPECT_EQ(LSM::SlipHistoryReader(LSM::text_io::open_plain(path("begun.slip"))).info().grid.step0,
+  EXPECT_EQ(LSM::SlipHistoryReader(LSM::files::open_plain(path("begun.slip"))).info().grid.step0,
             100);
 }
 

@@ -86,7 +86,7 @@ bool same(const LSM::Event &a, const LSM::Event &b) {
 Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
   Outcome outcome;
   try {
-    LSM::CatalogueReader reader(LSM::text_io::open_plain(path), lenient);
+    LSM::CatalogueReader reader(LSM::files::open_plain(path), lenient);
     require(reader.info().model == "lsm" || reader.info().model == "block-slider", "known model");
     LSM::Event event;
     while (reader.next(event)) {
@@ -154,7 +154,7 @@ void try_history(const std::string &path) {
   bool refused[2] = {false, false}, torn = false;
   for (const bool lenient : {false, true}) {
     try {
-      LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path), lenient);
+      LSM::SlipHistoryReader reader(LSM::files::open_plain(path), lenient);
       LSM::SlipRecord record;
       std::int64_t last = 0;
       while (reader.next(record)) {
@@ -198,7 +198,7 @@ struct Sample {
 Outcome read_series(const std::string &path, bool lenient, std::vector<Sample> &samples) {
   Outcome outcome;
   try {
-    LSM::PeSeriesReader reader(LSM::text_io::open_plain(path), lenient);
+    LSM::PeSeriesReader reader(LSM::files::open_plain(path), lenient);
     require(reader.info().dt > 0.0 && reader.info().stride >= 1, "sane header");
     LSM::EventPicker picker{LSM::PickerSettings()};
     LSM::Event event;

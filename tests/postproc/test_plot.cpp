@@ -195,7 +195,7 @@ TEST_F(Plot, FilesAppearWholeOrNotAtAll) {
   const std::string name = path("folder/text");
   write_file(name, "old");
   {
-    LSM::text_io::OutputFile file;
+    LSM::files::OutputFile file;
     file.create(name, "half of the n", true);
     EXPECT_EQ(slurp(name), "old");
   }

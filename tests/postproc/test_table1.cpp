@@ -136,7 +136,7 @@ EventTable picked_events(double shape, double mean, double memory, std::size_t n
   EventTable table = events(starts, std::vector<double>(starts.size(), 1.0));
   table.info.parameters = {{"dt", "0.1"},
                            {"picker", "exponential"},
-                           {"lambda", LSM::text_io::number(std::exp(-0.1 / memory))}};
+                           {"lambda", LSM::text::number(std::exp(-0.1 / memory))}};
   return table;
 }
 
@@ -184,12 +184,12 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
   settings.thresholds = {0.0};
   settings.replicas = 0;
   settings.cuts = true;
-  const auto shortest = [&](const LSM::text_io::Parameters &header) {
+  const auto shortest = [&](const LSM::files::Parameters &header) {
     table.info.parameters = header;
     return interval_curves({table}, settings)[0].shortest;
   };
   const double mean = interval_curves({table}, settings)[0].mean;
-  const std::string lambda = LSM::text_io::number(std::exp(-0.1 / 2.0));
+  const std::string lambda = LSM::text::number(std::exp(-0.1 / 2.0));
   EXPECT_NEAR(shortest({}), 0.05 * mean, 1e-12);
   EXPECT_NEAR(shortest({{"dt", "0.1"}, {"lambda", lambda}}), 5.0, 1e-9);
   EXPECT_NEAR(shortest({{"dt", "0.02"}, {"stride", "5"}, {"lambda", lambda}}), 5.0, 1e-9);

@@ -20,7 +20,7 @@ inline std::string text(const std::string &path) {
 
 // PE of every sample of a series.
 inline std::vector<double> pe_of(const std::string &path) {
-  LSM::PeSeriesReader series(LSM::text_io::open_plain(path));
+  LSM::PeSeriesReader series(LSM::files::open_plain(path));
   std::vector<double> pe;
   std::int64_t step = 0;
   double time = 0.0, value = 0.0;

@@ -19,7 +19,7 @@ struct Catalogue {
 };
 
 inline Catalogue read_catalogue(const std::string &path, bool lenient = false) {
-  LSM::CatalogueReader reader(LSM::text_io::open_plain(path), lenient);
+  LSM::CatalogueReader reader(LSM::files::open_plain(path), lenient);
   Catalogue catalogue;
   LSM::Event event;
   while (reader.next(event)) catalogue.events.push_back(event);

@@ -88,14 +88,14 @@ using CatalogueResume = CatalogueFile;
 TEST(Text, NumbersAreFiniteAndNothingElse) {
   double number = 7.0;
   for (const char *text : {"nan", "inf", "-inf", "1e999", "", " 1", "1 ", "1,5", "0x1"})
-    EXPECT_FALSE(LSM::text_io::parse(text, number)) << "'" << text << "'";
+    EXPECT_FALSE(LSM::text::parse(text, number)) << "'" << text << "'";
   EXPECT_EQ(number, 7.0);
-  EXPECT_TRUE(LSM::text_io::parse("-1e-3", number));
+  EXPECT_TRUE(LSM::text::parse("-1e-3", number));
   EXPECT_EQ(number, -1e-3);
   int whole = 7;
-  EXPECT_FALSE(LSM::text_io::parse("2.5", whole));
+  EXPECT_FALSE(LSM::text::parse("2.5", whole));
   EXPECT_EQ(whole, 7);
-  EXPECT_TRUE(LSM::text_io::parse("-12", whole));
+  EXPECT_TRUE(LSM::text::parse("-12", whole));
   EXPECT_EQ(whole, -12);
 }
 
@@ -619,7 +619,7 @@ TEST_F(CatalogueRead, NoFile) {
 
 TEST_F(CatalogueRead, EventByEvent) {
   write_events(3);
-  LSM::CatalogueReader reader(LSM::text_io::open_plain(file()));
+  LSM::CatalogueReader reader(LSM::files::open_plain(file()));
   EXPECT_EQ(reader.info().model, "lsm");
   Event event;
   for (int id = 1; id <= 3; ++id) {

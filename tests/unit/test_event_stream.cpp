@@ -158,7 +158,7 @@ TEST_F(EventStreamFiles, CatalogueIsWhatThePickerFindsInTheSeries) {
   run.begin();
   run.run(0, 400, 100);
   LSM::EventPicker picker(run.settings.picker);
-  LSM::PeSeriesReader series(LSM::text_io::open_plain(run.settings.series_file));
+  LSM::PeSeriesReader series(LSM::files::open_plain(run.settings.series_file));
   std::vector<LSM::Event> expected;
   std::int64_t step, samples = 0;
   double time, pe;
@@ -227,7 +227,7 @@ TEST_F(EventStreamFiles, DropsRupturesAndHistoryHaveTheSameSlip) {
   MadeUpRun run(settings);
   run.begin();
   run.run(0, 500, 50);
-  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(settings.history_file));
+  LSM::SlipHistoryReader reader(LSM::files::open_plain(settings.history_file));
   std::vector<LSM::SlipRecord> records;
   for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
   double whole = 0.0;
@@ -420,7 +420,7 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
   });
   EXPECT_TRUE(unit::contains(message, "Potential energy is not finite at step 2"));
   LSM::PeSeriesReader series(
-      LSM::text_io::open_plain(settings.series_file));  // of a run that still exists
+      LSM::files::open_plain(settings.series_file));  // of a run that still exists
   std::int64_t step, samples = 0;
   double time, pe;
   while (series.next(step, time, pe)) ++samples;

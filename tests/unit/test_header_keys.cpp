@@ -64,7 +64,7 @@ TEST(HeaderKeys, ValuesOutOfRangeAreNamed) {
     EXPECT_EQ(bad_value(key, value), "") << key;
 }
 
-void expect_known(const LSM::text_io::Parameters &header) {
+void expect_known(const LSM::files::Parameters &header) {
   EXPECT_GT(header.size(), 8u);
   for (const auto &one : header) EXPECT_NE(header_key(one.first), nullptr) << one.first;
 }
@@ -93,7 +93,7 @@ TEST(HeaderKeys, HaveTheVariablesThatHeadersState) {
     std::vector<std::string_view> cells;
     for (std::size_t at = 0; at <= line.size();) {
       const std::size_t bar = std::min(line.find('|', at), line.size());
-      cells.push_back(LSM::text_io::trim(std::string_view(line).substr(at, bar - at)));
+      cells.push_back(LSM::text::trim(std::string_view(line).substr(at, bar - at)));
       at = bar + 1;
     }
     if (line.empty() || line[0] == '#' || cells.size() < 5 || cells[4] != "header") continue;

@@ -160,17 +160,17 @@ TEST_F(OutputClaims, FilesThatAreReplacedStayLocked) {
     OutputClaim claim;
     claim = claim_outputs({{"a", path("a.csv")}});
     taken("before there is a file");
-    LSM::text_io::OutputFile file;
+    LSM::files::OutputFile file;
     file.create(path("a.csv"), "one\n");
     taken("while it is written");
     file.close();
     taken("after it was closed");
     for (const char *text : {"two\n", "three\n"}) {
-      LSM::text_io::write_file(path("a.csv"), text, true);
+      LSM::files::write_file(path("a.csv"), text, true);
       EXPECT_EQ(slurp(path("a.csv")), text);
       taken(text);
     }
-    EXPECT_EQ(LSM::text_io::why_not_writable(path("a.csv")), "");
+    EXPECT_EQ(LSM::files::why_not_writable(path("a.csv")), "");
     taken("after a look whether it can be written");
   }
   { const FileLock lock(path("a.csv")); }
@@ -179,7 +179,7 @@ TEST_F(OutputClaims, FilesThatAreReplacedStayLocked) {
 
 TEST_F(OutputClaims, ALookWhetherItCanBeWrittenKeepsTheLock) {
   const FileLock lock(path("a.csv"));
-  EXPECT_EQ(LSM::text_io::why_not_writable(path("a.csv")), "");
+  EXPECT_EQ(LSM::files::why_not_writable(path("a.csv")), "");
   EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock other(path("a.csv")); }),
                        "is being written by another run"));
 }

@@ -44,7 +44,7 @@ struct Sample {
 };
 
 std::vector<Sample> read_all(const std::string &path) {
-  PeSeriesReader reader(LSM::text_io::open_plain(path));
+  PeSeriesReader reader(LSM::files::open_plain(path));
   std::vector<Sample> samples;
   Sample sample{};
   while (reader.next(sample.step, sample.time, sample.pe)) samples.push_back(sample);
@@ -184,7 +184,7 @@ TEST_F(PeSeries, ComesBackToTheLastBit) {
   }
   EXPECT_EQ(writer.rows(), 6);
   writer.close();
-  PeSeriesReader reader(LSM::text_io::open_plain(file()));
+  PeSeriesReader reader(LSM::files::open_plain(file()));
   EXPECT_EQ(reader.info().model, "block-slider");
   EXPECT_EQ(reader.info().dt, 0.25);
   EXPECT_EQ(reader.info().step0, 100);

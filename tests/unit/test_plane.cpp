@@ -311,7 +311,7 @@ class PlaneFiles : public unit::Files {
  protected:
   std::string file() const { return path("slip.bin"); }
   std::vector<LSM::SlipRecord> read() const {
-    LSM::SlipHistoryReader reader(LSM::text_io::open_plain(file()));
+    LSM::SlipHistoryReader reader(LSM::files::open_plain(file()));
     std::vector<LSM::SlipRecord> records;
     for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
     return records;
@@ -365,7 +365,7 @@ TEST_F(PlaneFiles, HistoriesAreOfVersion2) {
   EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
   EXPECT_TRUE(contains(
       bytes, "# bins_dip = 20\n# z0 = -16.5\n# bin_dip = 1\n# ends_dip = open\n# ends = open\n"));
-  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(file()));
+  LSM::SlipHistoryReader reader(LSM::files::open_plain(file()));
   const FaultGrid &grid = reader.info().grid;
   EXPECT_TRUE(grid.plane);
   EXPECT_FALSE(grid.ring || grid.ring_dip);
@@ -398,7 +398,7 @@ TEST_F(PlaneFiles, HistoriesGoOnByteForByte) {
   const unit::Crack crack(1.0);
   crack.record(file());
   const std::string whole = unit::slurp(file());
-  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(LSM::text_io::open_plain(file())).info();
+  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(LSM::files::open_plain(file())).info();
   for (const std::int64_t stop : {0, 3, 7}) {
     LSM::SlipHistoryWriter before, after;
     before.create(file(), info, crack.grid.step0, 0.0, crack.row(0).stress);

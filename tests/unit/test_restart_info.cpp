@@ -34,7 +34,7 @@ class RestartInfo : public unit::Files {
 
   std::string bytes;
   const std::string file = path("r.500"), info = file + ".info";
-  const LSM::text_io::Parameters settings = {{"step", "500"}, {"leaping", ""}, {"law", "a b = c"}};
+  const LSM::files::Parameters settings = {{"step", "500"}, {"leaping", ""}, {"law", "a b = c"}};
 };
 
 TEST(Checksum, KnownSums) {

@@ -52,7 +52,7 @@ FaultRow some_row(int n) {
 }
 
 std::vector<SlipRecord> read(const std::string &path, bool lenient = false) {
-  SlipHistoryReader reader(LSM::text_io::open_plain(path), lenient);
+  SlipHistoryReader reader(LSM::files::open_plain(path), lenient);
   std::vector<SlipRecord> records;
   SlipRecord record;
   while (reader.next(record)) records.push_back(record);
@@ -108,7 +108,7 @@ TEST_F(SlipHistory, HeaderComesBack) {
   SlipHistoryWriter writer;
   create(writer);
   writer.close();
-  const SlipHistoryInfo info = SlipHistoryReader(LSM::text_io::open_plain(file())).info(),
+  const SlipHistoryInfo info = SlipHistoryReader(LSM::files::open_plain(file())).info(),
                         wanted = some_info();
   EXPECT_EQ(info.model, "lsm");
   EXPECT_EQ(info.grid.bins, wanted.grid.bins);

@@ -233,7 +233,7 @@ LSM::EnergyTerms LSMEventSources::energies() const
 
 LSM::SceneInfo LSMEventSources::scene() const
 {
-  using LSM::text_io::number;
+  using LSM::text::number;
   LSM::SceneInfo info;
   info.ranks = comm->nprocs;
   info.dt = update->dt;
@@ -252,15 +252,15 @@ LSM::SceneInfo LSMEventSources::scene() const
   return info;
 }
 
-LSM::text_io::Parameters LSMEventSources::variables() const
+LSM::files::Parameters LSMEventSources::variables() const
 {
-  LSM::text_io::Parameters stated;
-  const auto running = plates_ ? plates_->settings() : LSM::text_io::Parameters();
+  LSM::files::Parameters stated;
+  const auto running = plates_ ? plates_->settings() : LSM::files::Parameters();
   for (const auto &[name, value] : LSMScript::listed(lmp, LSMScript::HEADER)) {
-    const std::string *const runs = LSM::text_io::find(running, name);
+    const std::string *const runs = LSM::files::find(running, name);
     double given, used;
-    const bool same = runs && LSM::text_io::parse(value, given) &&
-                      LSM::text_io::parse(*runs, used) && given == used;
+    const bool same =
+        runs && LSM::text::parse(value, given) && LSM::text::parse(*runs, used) && given == used;
     const std::string &text = !runs || same ? value : *runs;
     if (!text.empty()) stated.emplace_back(name, text);
   }

@@ -49,7 +49,7 @@ class LSMEventSources : protected Pointers {
   LSM::SceneInfo scene() const;
   /// The variables of lsm_variables that headers state. The settings of a style in use take
   /// precedence.
-  LSM::text_io::Parameters variables() const;
+  LSM::files::Parameters variables() const;
 
  private:
   std::pair<int, int> bits_of(const char *keyword, const LSM::TwoSides &) const;

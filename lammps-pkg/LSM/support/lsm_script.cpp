@@ -44,9 +44,9 @@ std::string LSMScript::beside(LAMMPS *lmp, FILE *script, const std::string &name
   return path;
 }
 
-LSM::text_io::Parameters LSMScript::listed(LAMMPS *lmp, const char *list)
+LSM::files::Parameters LSMScript::listed(LAMMPS *lmp, const char *list)
 {
-  LSM::text_io::Parameters all;
+  LSM::files::Parameters all;
   const char *const names = lmp->input->variable->retrieve(list);
   std::istringstream in(names ? names : "");
   for (std::string name; in >> name;) all.emplace_back(name, value_of(lmp, name, list));
@@ -87,7 +87,7 @@ struct Draft {
 }    // namespace
 
 void LSMScript::save_restart(LAMMPS *lmp, const std::string &file,
-                             const LSM::text_io::Parameters &settings, bool within_run)
+                             const LSM::files::Parameters &settings, bool within_run)
 {
   Draft draft{file + ".new", lmp->comm->me == 0};
   WriteRestart writer(lmp);
@@ -100,8 +100,8 @@ void LSMScript::save_restart(LAMMPS *lmp, const std::string &file,
   }
 
   const std::string problem = lsm_on_0(lmp->world, [&] {
-    LSM::text_io::Parameters all = {{"step", std::to_string(lmp->update->ntimestep)},
-                                    {"ranks", std::to_string(lmp->comm->nprocs)}};
+    LSM::files::Parameters all = {{"step", std::to_string(lmp->update->ntimestep)},
+                                  {"ranks", std::to_string(lmp->comm->nprocs)}};
     all.insert(all.end(), settings.begin(), settings.end());
     if (!ends_well(draft.file)) throw LSM::FileError("the file on disk is incomplete");
     LSM::seal_restart(draft.file, file, all);

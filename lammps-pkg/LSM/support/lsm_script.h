@@ -22,13 +22,13 @@ namespace LSMScript {
   /// Names of variables that lsm_variables has left for others, in string-style variables.
   constexpr char SAVED[] = "lsm_saved", HEADER[] = "lsm_header";
   /// Those of a list with their values; empty if there is no such list.
-  LSM::text_io::Parameters listed(LAMMPS *, const char *list);
+  LSM::files::Parameters listed(LAMMPS *, const char *list);
   /// The value of a variable, or an error; `who` begins the message.
   std::string value_of(LAMMPS *, const std::string &name, const std::string &who);
 
   /// Writes a restart file as FILE.new, verifies it, and only then gives it its name and FILE.info.
   /// On all ranks. settings: of rank 0, for FILE.info. within_run: at the end of a step.
-  void save_restart(LAMMPS *, const std::string &file, const LSM::text_io::Parameters &settings,
+  void save_restart(LAMMPS *, const std::string &file, const LSM::files::Parameters &settings,
                     bool within_run);
 
 }    // namespace LSMScript

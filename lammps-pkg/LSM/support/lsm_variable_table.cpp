@@ -20,7 +20,7 @@ static std::vector<std::string> split(const std::string &text, char separator)
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto end = std::min(text.find(separator, begin), text.size());
-    parts.emplace_back(LSM::text_io::trim(std::string_view(text).substr(begin, end - begin)));
+    parts.emplace_back(LSM::text::trim(std::string_view(text).substr(begin, end - begin)));
     begin = end + 1;
   }
   return parts;
@@ -29,11 +29,11 @@ static std::vector<std::string> split(const std::string &text, char separator)
 // "NAME VALUE"
 static std::pair<std::string, std::string> name_and_value(const std::string &text)
 {
-  const std::string part(LSM::text_io::trim(text));
+  const std::string part(LSM::text::trim(text));
   const auto blank = part.find(' ');
   if (blank == std::string::npos)
     throw std::invalid_argument("expected a name and a value, but got '" + part + "'");
-  return {part.substr(0, blank), std::string(LSM::text_io::trim(part.substr(blank)))};
+  return {part.substr(0, blank), std::string(LSM::text::trim(part.substr(blank)))};
 }
 
 // Names of files and free text reach the words of commands, so that only what is listed is
@@ -59,7 +59,7 @@ std::string LSMSceneVariable::expected(const std::string &value, const std::stri
                : "words of letters, digits and any of . _ - + = , @ : / ~ *";
 
   double number = 0.0;
-  const bool is_number = LSM::text_io::parse(value, number) && std::isfinite(number);
+  const bool is_number = LSM::text::parse(value, number) && std::isfinite(number);
   if (accepted == "number") return is_number ? "" : "a number";
   std::smatch bound;
   static const std::regex BOUND("(whole )?(>=?) (\\S+)");
@@ -84,7 +84,7 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     number++;
-    const std::string what(LSM::text_io::trim(line));
+    const std::string what(LSM::text::trim(line));
     if (what.empty() || what[0] == '#') continue;
     try {
       const auto colon = what.find(':'), replaces = what.find(" replaces "),
@@ -122,7 +122,7 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
       variables.push_back({cells[0], cells[1], cells[1] == "-", cells[2],
                            static_cast<LSMSceneVariable::Restart>(restart), cells[4] == "header"});
     } catch (const std::invalid_argument &e) {
-      throw std::invalid_argument(LSM::text_io::where(file, number) + e.what());
+      throw std::invalid_argument(LSM::text::where(file, number) + e.what());
     }
   }
   const auto known = [&](const std::string &name) {

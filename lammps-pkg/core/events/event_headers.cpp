@@ -7,8 +7,8 @@ namespace LSM {
 
 namespace {
 
-using text_io::number;
-using text_io::Parameters;
+using files::Parameters;
+using text::number;
 
 /// What describes the events stands between the lines of the scene and those of the user, who may
 /// replace each of them.
@@ -21,7 +21,7 @@ Parameters parameters_of(const EventSettings &settings, const SceneInfo &scene,
   if (!left_out.empty()) all.emplace_back(left_out, "none");
   Parameters out;
   for (auto &one : all)
-    if (!text_io::find(settings.parameters, one.first)) out.push_back(std::move(one));
+    if (!files::find(settings.parameters, one.first)) out.push_back(std::move(one));
   out.insert(out.end(), settings.parameters.begin(), settings.parameters.end());
   return out;
 }
@@ -38,7 +38,7 @@ template <class Info>
 void add_others(Info &info, const Parameters &parameters) {
   const Parameters own = info.header();
   for (const auto &one : parameters)
-    if (!text_io::find(own, one.first)) info.parameters.push_back(one);
+    if (!files::find(own, one.first)) info.parameters.push_back(one);
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ SlipHistoryInfo history_header(const EventSettings &settings, const SceneInfo &s
   info.driving = settings.driving;
   info.quiet = settings.quiet;
   // The width of the bins has its own key, and the history is no catalogue.
-  add_others(info, text_io::without(ruptures_header(settings, scene, grid).parameters,
-                                    {"slip_bin", "slip_bin_dip", "events"}));
+  add_others(info, files::without(ruptures_header(settings, scene, grid).parameters,
+                                  {"slip_bin", "slip_bin_dip", "events"}));
   if (!grid.ring) info.parameters.emplace_back("ends", "open");
   if (grid.plane && !grid.ring_dip) info.parameters.emplace_back("ends_dip", "open");
   return info;

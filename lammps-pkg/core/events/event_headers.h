@@ -18,7 +18,7 @@ namespace LSM {
 
 /// What headers state about the scene.
 struct SceneInfo {
-  text_io::Parameters parameters;  ///< in the order of the file
+  files::Parameters parameters;  ///< in the order of the file
   int ranks = 1;
   double dt = 1.0;
 };

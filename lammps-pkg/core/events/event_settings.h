@@ -56,7 +56,7 @@ struct EventSettings {
   int quiet = 100;        ///< intervals in one record of the history while nothing slips
 
   /// Further parameters for the headers, which replace those of the same name.
-  text_io::Parameters parameters;
+  files::Parameters parameters;
 
   /// Whether ruptures are looked for; the slip history also has to know what slips.
   bool finds_ruptures() const { return !ruptures_file.empty() || !history_file.empty(); }

@@ -138,11 +138,11 @@ void EventStream::check_files(bool from_restart) const {
                              " exists, but the restart file holds no slip of compute " + name +
                              " with these bins and intervals; give another name, or replace it "
                              "with overwrite yes and resume no");
-    if (!resumes(file) && !settings_.overwrite && text_io::holds_data(file))
+    if (!resumes(file) && !settings_.overwrite && files::holds_data(file))
       throw EventStreamError(who + key + ": file " + file +
                              " exists; give another name, or replace it with overwrite yes" +
                              (from_restart ? ", or continue it with resume yes" : ""));
-    const std::string problem = text_io::why_not_writable(file);
+    const std::string problem = files::why_not_writable(file);
     if (!problem.empty()) throw EventStreamError(problem);
   }
 }

@@ -65,10 +65,10 @@ Number from_bytes(const char *from) {
 
 /// Returns the model and the numbers of a header as parameters.
 template <class Info>
-text_io::Parameters numbers_of(const Info &info) {
-  text_io::Parameters all = {{"model", info.model}};
+files::Parameters numbers_of(const Info &info) {
+  files::Parameters all = {{"model", info.model}};
   Info::visit(info, [&all](const char *name, const auto &value) {
-    all.emplace_back(name, text_io::number(value));
+    all.emplace_back(name, text::number(value));
   });
   return all;
 }
@@ -86,7 +86,7 @@ class RecordReader {
 
  protected:
   /// \throws FileError if the file cannot be read or its header is not as it should be.
-  RecordReader(std::unique_ptr<text_io::Bytes> in, bool lenient)
+  RecordReader(std::unique_ptr<files::Bytes> in, bool lenient)
       : in_(std::move(in)), lenient_(lenient) {
     const std::string problem = interpret(read_header());
     if (!problem.empty()) throw FileError(in_->path() + ": " + problem);
@@ -118,14 +118,14 @@ class RecordReader {
 
  private:
   /// Reads all parameters of the header.
-  text_io::Parameters read_header() {
+  files::Parameters read_header() {
     const std::string &path = in_->path();
     std::array<char, 16> first{};
     const std::string_view found(first.data(), in_->read(first.data(), first.size()));
     constexpr std::string_view name = Info::magic.substr(0, 15), family = name.substr(0, 14);
     if (found.substr(0, family.size()) != family)
       throw FileError(path + ": not a " + Info::what + ", expected a file that begins with " +
-                      text_io::in_quotes(name));
+                      text::in_quotes(name));
     const int version = found.size() == first.size() && found[15] == '\n' ? found[14] - '0' : 0;
     if (version < 1 || version > Info::versions)
       throw FileError(path + ": " + Info::what + " of another version, expected version 1" +
@@ -135,29 +135,29 @@ class RecordReader {
     const bool whole = in_->read(bytes.data(), bytes.size()) == bytes.size();
     const auto length = from_bytes<std::int64_t>(bytes.data());
     std::string text;
-    if (whole && length >= 0 && length <= text_io::longest_header)
+    if (whole && length >= 0 && length <= files::longest_header)
       text.resize(static_cast<std::size_t>(length));
     if (!whole || in_->read(text.data(), text.size()) != static_cast<std::uint64_t>(length))
       throw FileError(path + ": file ends within the binary header, expected its length and " +
                       "'# key = value' lines");
     begin_ = 16 + 8 + length;
-    text_io::ParameterList parameters;
+    files::ParameterList parameters;
     const std::string problem = parameters.add_lines(text, bad_value);
     if (!problem.empty()) throw FileError(path + ": " + problem);
     return parameters.all();
   }
 
   /// Assigns the parameters to the members of info_. Returns what is wrong, or "".
-  std::string interpret(const text_io::Parameters &all) {
-    std::string problem = text_io::take(all, "model", info_.model);
+  std::string interpret(const files::Parameters &all) {
+    std::string problem = files::take(all, "model", info_.model);
     Info::visit(info_, [&](const char *name, auto &value) {
-      if (problem.empty()) problem = text_io::take(all, name, value);
+      if (problem.empty()) problem = files::take(all, name, value);
     });
     if (problem.empty()) problem = info_.read(all);
     if (!problem.empty()) return problem;
-    const text_io::Parameters known = info_.header();
+    const files::Parameters known = info_.header();
     for (const auto &parameter : all)
-      if (!text_io::find(known, parameter.first)) info_.parameters.push_back(parameter);
+      if (!files::find(known, parameter.first)) info_.parameters.push_back(parameter);
     return info_.problem();
   }
 
@@ -169,7 +169,7 @@ class RecordReader {
                       " at the end, expected " + std::to_string(bytes_) + " bytes per record");
   }
 
-  std::unique_ptr<text_io::Bytes> in_;
+  std::unique_ptr<files::Bytes> in_;
   Info info_;
   std::int64_t begin_ = 0, bytes_ = 1, total_ = INT64_MAX, read_ = 0;
   std::vector<char> block_;
@@ -179,7 +179,7 @@ class RecordReader {
 
 /// Starts or continues a file of records.
 template <class Info>
-class RecordWriter : public text_io::ResumableFile {
+class RecordWriter : public files::ResumableFile {
  protected:
   /// Starts a new file. An older one is replaced only once the header has been written.
   /// \throws FileError
@@ -192,7 +192,7 @@ class RecordWriter : public text_io::ResumableFile {
   /// Checks that the header is what begin() would write, except for what may change.
   /// \throws the same, naming the first parameter that differs
   void compare(const std::string &path, const Info &found, const Info &info) {
-    const std::string problem = text_io::difference(found.header(), checked(info));
+    const std::string problem = files::difference(found.header(), checked(info));
     if (!problem.empty()) refuse(path, problem);
     take(info);
   }
@@ -201,18 +201,18 @@ class RecordWriter : public text_io::ResumableFile {
 
  private:
   void take(const Info &info) {
-    const std::string lines = text_io::lines_of(checked(info));
+    const std::string lines = files::lines_of(checked(info));
     header_ = Info::magic;
     header_[14] = static_cast<char>('0' + info.version());
     append_bytes(header_, static_cast<std::int64_t>(lines.size()));
     header_ += lines;
     info_ = info;
   }
-  static text_io::Parameters checked(const Info &info) {
+  static files::Parameters checked(const Info &info) {
     const std::string problem = info.problem();
     if (!problem.empty())
       throw std::invalid_argument(std::string(Info::what) + " header: " + problem);
-    text_io::check_parameters(info.header());
+    files::check_parameters(info.header());
     return info.header();
   }
 };

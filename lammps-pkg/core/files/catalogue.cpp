@@ -57,7 +57,7 @@ std::string column_line(const CatalogueInfo &info) {
 /// Returns what is wrong with the model, or "".
 std::string bad_model(const std::string &model) {
   if (model == "lsm" || model == "block-slider") return {};
-  return "model is " + text_io::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
+  return "model is " + text::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
 }
 
 /// Names the first number of the event that is not finite, or returns "".
@@ -71,7 +71,7 @@ std::string not_finite(const Event &event) {
 /// Returns why an event must not follow the previous one, or "". The first event has no predecessor
 /// (nullptr).
 std::string out_of_order(const Event &event, const Event *before, bool overlapping) {
-  using text_io::number;
+  using text::number;
   constexpr const char *earlier = " is before the end of the previous event ";
   if (event.t_end < event.t_start)
     return "t_end " + number(event.t_end) + " is before t_start " + number(event.t_start) +
@@ -99,7 +99,7 @@ std::string out_of_order(const Event &event, const Event *before, bool overlappi
 
 /// Refuses a header that CatalogueReader would refuse.
 void check_info(const CatalogueInfo &info) {
-  text_io::check_parameters(info.header());
+  files::check_parameters(info.header());
   std::string problem = bad_model(info.model);
   for (const auto &[key, value] : info.parameters)
     if (problem.empty()) problem = bad_value(key, value);
@@ -122,17 +122,17 @@ bool CatalogueInfo::overlapping() const {
 
 double CatalogueInfo::completeness() const {
   double size = 0.0;
-  if (const std::string *text = find("completeness")) text_io::parse(*text, size);
+  if (const std::string *text = find("completeness")) text::parse(*text, size);
   return size;
 }
 
-text_io::Parameters CatalogueInfo::header() const {
-  text_io::Parameters all = {{"model", model}};
+files::Parameters CatalogueInfo::header() const {
+  files::Parameters all = {{"model", model}};
   all.insert(all.end(), parameters.begin(), parameters.end());
   return all;
 }
 
-CatalogueReader::CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient)
+CatalogueReader::CatalogueReader(std::unique_ptr<files::Bytes> bytes, bool lenient)
     : reader_(std::move(bytes)), lenient_(lenient) {
   read_header();
 }
@@ -175,23 +175,23 @@ std::vector<std::string> CatalogueReader::repairs() const {
 void CatalogueReader::report(Kind kind, const std::string &problem) {
   if (!lenient_) reader_.fail(problem);
   ++counts_[kind];
-  if (skipped_++ == 0) first_problem_ = text_io::where(reader_.path(), reader_.line()) + problem;
+  if (skipped_++ == 0) first_problem_ = text::where(reader_.path(), reader_.line()) + problem;
 }
 
 void CatalogueReader::read_header() {
   if (!reader_.next(line_))
-    throw FileError(text_io::where(reader_.path(), 1) + "empty file, expected '" +
+    throw FileError(text::where(reader_.path(), 1) + "empty file, expected '" +
                     std::string(first_line) + "'");
   if (line_ != first_line) {
     if (line_.substr(0, catalogue_magic.size()) == catalogue_magic)
-      reader_.fail("catalogue version " + text_io::in_quotes(line_.substr(catalogue_magic.size())) +
+      reader_.fail("catalogue version " + text::in_quotes(line_.substr(catalogue_magic.size())) +
                    ", expected version 1");
     reader_.fail("not a catalogue, expected '" + std::string(first_line) + "'");
   }
-  text_io::ParameterList parameters;
+  files::ParameterList parameters;
   while (reader_.next(line_)) {
-    if (reader_.begin() > text_io::longest_header)
-      reader_.fail("header longer than " + std::to_string(text_io::longest_header) +
+    if (reader_.begin() > files::longest_header)
+      reader_.fail("header longer than " + std::to_string(files::longest_header) +
                    " bytes, expected a line of column names");
     if (!line_.empty() && line_.front() == '#') {
       read_parameter(parameters);
@@ -202,12 +202,12 @@ void CatalogueReader::read_header() {
       reader_.fail("no model in the header, expected '# model = lsm' or '# model = block-slider'");
     return;
   }
-  throw FileError(text_io::where(reader_.path(), reader_.line()) +
+  throw FileError(text::where(reader_.path(), reader_.line()) +
                   "file ends within the header, expected a line of column names '" +
                   column_line(CatalogueInfo()) + "'");
 }
 
-void CatalogueReader::read_parameter(text_io::ParameterList &parameters) {
+void CatalogueReader::read_parameter(files::ParameterList &parameters) {
   std::string problem = parameters.add_line(line_, bad_value);
   if (!problem.empty()) return report(header, problem);
   const auto &[key, value] = parameters.all().back();
@@ -223,7 +223,7 @@ void CatalogueReader::read_parameter(text_io::ParameterList &parameters) {
 void CatalogueReader::read_columns() {
   if (!reader_.complete()) reader_.fail("truncated line of column names, expected a line end");
   std::vector<std::string_view> names;
-  text_io::split(line_, names);
+  text::split(line_, names);
   column_line_ = line_;
   for (const std::string_view name : names) {
     const auto *known = std::find_if(std::begin(all_columns), std::end(all_columns),
@@ -234,12 +234,12 @@ void CatalogueReader::read_columns() {
   for (const CatalogueColumn &column : all_columns) {
     const auto there = std::count(names.begin(), names.end(), column.name);
     if (there > 1)
-      reader_.fail("column " + text_io::in_quotes(column.name) + " is there twice, expected once");
+      reader_.fail("column " + text::in_quotes(column.name) + " is there twice, expected once");
     if (there == 0 && !column.optional)
-      reader_.fail("column " + text_io::in_quotes(column.name) + " is missing, expected '" +
+      reader_.fail("column " + text::in_quotes(column.name) + " is missing, expected '" +
                    column_line(CatalogueInfo()) + "'");
     if (there == 0 && column.optional == &CatalogueInfo::plane && info_.plane)
-      reader_.fail("column " + text_io::in_quotes(column.name) +
+      reader_.fail("column " + text::in_quotes(column.name) +
                    " is missing, expected all columns of ruptures on a plane");
   }
   overlapping_ = info_.overlapping();
@@ -278,7 +278,7 @@ void CatalogueReader::report_row(const CatalogueColumn &column, std::string_view
     return report(columns, std::to_string(fields) + " columns, expected " +
                                std::to_string(columns_.size()) + " (" + column_line_ + ")");
   report(number, "column '" + std::string(column.name) + "' is " +
-                     text_io::in_quotes(rest.substr(0, rest.find(','))) + ", expected " +
+                     text::in_quotes(rest.substr(0, rest.find(','))) + ", expected " +
                      (column.number ? "a finite number" : "an integer"));
 }
 
@@ -292,9 +292,9 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
                                std::int64_t last_step, std::int64_t expected) {
   check_info(info);
   file_.close();
-  CatalogueReader reader(text_io::open_plain(path));
+  CatalogueReader reader(files::open_plain(path));
   reader.resuming_ = true;
-  const std::string problem = text_io::difference(reader.info().header(), info.header());
+  const std::string problem = files::difference(reader.info().header(), info.header());
   if (!problem.empty()) refuse(path, problem);
   const std::string columns = column_line(info);
   if (reader.column_line_ != columns)
@@ -322,15 +322,15 @@ void CatalogueWriter::write(const Event &event) {
   std::string problem = not_finite(event);
   if (problem.empty()) problem = out_of_order(event, rows_ > 0 ? &last_ : nullptr, overlapping_);
   if (!problem.empty())
-    throw FileError(file_.path() + ": cannot write event " + text_io::number(event.id) + ": " +
+    throw FileError(file_.path() + ": cannot write event " + text::number(event.id) + ": " +
                     problem);
   line_.clear();
   for (const CatalogueColumn &column : columns_) {
     if (!line_.empty()) line_ += ',';
     if (column.number)
-      text_io::append(line_, event.*column.number);
+      text::append(line_, event.*column.number);
     else
-      text_io::append(line_, event.*column.integer);
+      text::append(line_, event.*column.integer);
   }
   line_ += '\n';
   file_.write(line_);
@@ -340,7 +340,7 @@ void CatalogueWriter::write(const Event &event) {
 
 void CatalogueWriter::start(const CatalogueInfo &info) {
   header_ =
-      std::string(first_line) + "\n" + text_io::lines_of(info.header()) + column_line(info) + "\n";
+      std::string(first_line) + "\n" + files::lines_of(info.header()) + column_line(info) + "\n";
   columns_ = columns_of(info);
   overlapping_ = info.overlapping();
   rows_ = 0;

@@ -35,7 +35,7 @@
 namespace LSM {
 
 /// Header of a catalogue.
-struct CatalogueInfo : text_io::FileHeader {
+struct CatalogueInfo : files::FileHeader {
   bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
   bool peak_slip = false;                                                ///< the same
   /// Optional columns that only ruptures have.
@@ -49,7 +49,7 @@ struct CatalogueInfo : text_io::FileHeader {
   double completeness() const;
 
   /// All parameters, the model first.
-  text_io::Parameters header() const;
+  files::Parameters header() const;
 };
 
 constexpr std::string_view catalogue_magic = "# lsm-catalogue ";
@@ -75,7 +75,7 @@ std::vector<CatalogueColumn> columns_of(const CatalogueInfo &info);
 class CatalogueReader {
  public:
   /// \throws FileError if the header cannot be read.
-  explicit CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient = false);
+  explicit CatalogueReader(std::unique_ptr<files::Bytes> bytes, bool lenient = false);
 
   const CatalogueInfo &info() const { return info_; }
 
@@ -99,7 +99,7 @@ class CatalogueReader {
   void report(Kind kind, const std::string &problem);
 
   void read_header();
-  void read_parameter(text_io::ParameterList &parameters);
+  void read_parameter(files::ParameterList &parameters);
 
   void read_columns();
 
@@ -111,7 +111,7 @@ class CatalogueReader {
   /// read.
   void report_row(const CatalogueColumn &column, std::string_view rest);
 
-  text_io::LineReader reader_;
+  files::LineReader reader_;
   bool lenient_ = false;
   bool resuming_ = false;  // an incomplete last line ends the file silently
   CatalogueInfo info_;
@@ -128,7 +128,7 @@ class CatalogueReader {
 
 /// Writes a catalogue. Each event has been handed to the operating system when write() returns, so
 /// that it survives if the process is killed.
-class CatalogueWriter : public text_io::ResumableFile {
+class CatalogueWriter : public files::ResumableFile {
  public:
   /// Starts a new catalogue, replacing an older one (which stays if the new one cannot be written).
   /// \param whole the file gets its name by close() only, see OutputFile

@@ -13,7 +13,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
 }
 
 FileSum sum_of_file(const std::string &path) {
-  text_io::FileBytes in(path);
+  files::FileBytes in(path);
   FileSum sum;
   std::string block(1 << 20, '\0');
   while (const std::size_t got = in.read(block.data(), block.size())) {

@@ -129,13 +129,13 @@ std::string bad_value(const std::string &key, const std::string &value) {
   const HeaderKey *const known = header_key(key);
   if (!known || known->key != key) return {};
   const auto expected = [&](const std::string &what) {
-    return key + " is " + text_io::in_quotes(value) + ", expected " + what;
+    return key + " is " + text::in_quotes(value) + ", expected " + what;
   };
   using Type = HeaderKey::Type;
   const bool whole = known->type == Type::whole;
   double number = 0.0;
   if ((whole || known->type == Type::number) &&
-      (!text_io::parse(value, number) || (whole && number != std::floor(number))))
+      (!text::parse(value, number) || (whole && number != std::floor(number))))
     return expected(known->expected ? known->expected : whole ? "a whole number" : "a number");
   if (known->expected && !(number >= known->least && number < known->below))
     return expected(known->expected);

@@ -9,7 +9,7 @@
 
 #include "files/file_error.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 std::size_t Bytes::read(char *to, std::size_t most) {
   const std::size_t known = std::min(most, ahead_.size());
@@ -82,4 +82,4 @@ bool is_utf16(std::string_view head) {
   return head.substr(0, 2) == "\xff\xfe" || head.substr(0, 2) == "\xfe\xff";
 }
 
-}  // namespace LSM::text_io
+}  // namespace LSM::files

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 /// A stream of the bytes of a file.
 class Bytes {
@@ -70,6 +70,6 @@ std::unique_ptr<Bytes> open_plain(const std::string &path);
 /// Whether a text begins with a byte order mark of UTF-16.
 bool is_utf16(std::string_view head);
 constexpr const char *utf16_text = ": text in UTF-16, expected UTF-8 or ASCII";
-}  // namespace LSM::text_io
+}  // namespace LSM::files
 
 #endif

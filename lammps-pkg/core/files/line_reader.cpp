@@ -6,7 +6,7 @@
 
 #include "files/file_error.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 LineReader::LineReader(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
   buffer_.resize(first_size);
@@ -45,7 +45,7 @@ bool LineReader::next(std::string_view &line) {
 }
 
 void LineReader::fail(const std::string &what) const {
-  throw FileError(where(path(), line_) + what);
+  throw FileError(text::where(path(), line_) + what);
 }
 
 bool LineReader::fill() {
@@ -55,8 +55,8 @@ bool LineReader::fill() {
   filled_ = rest;
   if (rest == buffer_.size()) {
     if (rest >= longest_line)
-      throw FileError(where(path(), line_ + 1) + "longer than " + std::to_string(longest_line) +
-                      " bytes, expected a line of text");
+      throw FileError(text::where(path(), line_ + 1) + "longer than " +
+                      std::to_string(longest_line) + " bytes, expected a line of text");
     buffer_.resize(2 * rest);
   }
   const std::size_t got = bytes_->read(buffer_.data() + filled_, buffer_.size() - filled_);
@@ -64,4 +64,4 @@ bool LineReader::fill() {
   return got > 0;
 }
 
-}  // namespace LSM::text_io
+}  // namespace LSM::files

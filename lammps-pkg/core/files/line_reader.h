@@ -14,7 +14,7 @@
 #include "files/input_bytes.h"
 #include "files/text.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 /// Reads the lines of a file with their numbers and byte offsets, in large blocks. A byte order
 /// mark and the '\r' of Windows line ends are removed.
@@ -52,6 +52,6 @@ class LineReader {
   std::int64_t line_ = 0, begin_ = 0, end_ = 0;
   bool complete_ = true, foreign_ = false;
 };
-}  // namespace LSM::text_io
+}  // namespace LSM::files
 
 #endif

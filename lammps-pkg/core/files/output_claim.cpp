@@ -57,7 +57,7 @@ bool is_open_for_writing(const std::string &path) {
   if (!std::filesystem::is_regular_file(path, code)) return false;
   for (const auto &entry : std::filesystem::directory_iterator("/proc/self/fd", code)) {
     int descriptor = -1;
-    if (!text_io::parse(entry.path().filename().string(), descriptor)) continue;
+    if (!text::parse(entry.path().filename().string(), descriptor)) continue;
     const int mode = fcntl(descriptor, F_GETFL);
     if (mode >= 0 && (mode & O_ACCMODE) != O_RDONLY && leads_to(path, descriptor)) return true;
   }
@@ -95,7 +95,7 @@ FileLock::FileLock(const std::string &path, Flock flock) : name_(target_of(path)
       locked = draft;
       descriptor_ = open(locked.c_str(), flags | O_CREAT, 0666);
     }
-    if (descriptor_ < 0) throw FileError(text_io::why_not_opened(path, locked, errno));
+    if (descriptor_ < 0) throw FileError(files::why_not_opened(path, locked, errno));
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
       if (reason != EWOULDBLOCK) remove_draft();

@@ -10,7 +10,7 @@
 #include "files/input_bytes.h"
 #include "files/output_claim.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 namespace {
 
@@ -173,4 +173,4 @@ void write_file(const std::string &path, std::string_view text, bool safe) {
   file.close();
 }
 
-}  // namespace LSM::text_io
+}  // namespace LSM::files

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 /// Whether path is a regular file that is not empty.
 bool holds_data(const std::string &path);
@@ -105,6 +105,6 @@ class ResumableFile {
 /// \param safe also writes it to the disk, so that a power failure cannot lose it
 /// \throws FileError
 void write_file(const std::string &path, std::string_view text, bool safe = false);
-}  // namespace LSM::text_io
+}  // namespace LSM::files
 
 #endif

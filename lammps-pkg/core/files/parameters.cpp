@@ -8,7 +8,7 @@
 
 #include "files/header_keys.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 const std::string *find(const Parameters &parameters, std::string_view key) {
   for (const auto &parameter : parameters)
@@ -32,14 +32,15 @@ void check_parameters(const Parameters &parameters) {
     if (bytes > longest_header)
       throw std::invalid_argument("file header: longer than " + std::to_string(longest_header) +
                                   " bytes");
-    if (key.empty() || trim(key) != key || key.find_first_of("=\n\r") != std::string::npos)
-      throw std::invalid_argument("file header: parameter name " + in_quotes(key) +
+    if (key.empty() || text::trim(key) != key || key.find_first_of("=\n\r") != std::string::npos)
+      throw std::invalid_argument("file header: parameter name " + text::in_quotes(key) +
                                   " is empty or has blanks around it, '=' or a line break");
     if (value.find_first_of("\n\r") != std::string::npos)
-      throw std::invalid_argument("file header: value of parameter " + in_quotes(key) +
+      throw std::invalid_argument("file header: value of parameter " + text::in_quotes(key) +
                                   " has a line break");
     if (!keys.insert(key).second)
-      throw std::invalid_argument("file header: parameter " + in_quotes(key) + " given twice");
+      throw std::invalid_argument("file header: parameter " + text::in_quotes(key) +
+                                  " given twice");
   }
 }
 
@@ -47,7 +48,7 @@ std::string lines_of(const Parameters &parameters) {
   std::string out;
   for (const auto &[key, value] : parameters) {
     out += "# " + key + " = ";
-    out += trim(value);
+    out += text::trim(value);
     out += '\n';
   }
   return out;
@@ -58,22 +59,22 @@ bool parse_parameter(std::string_view line, std::pair<std::string, std::string> 
   line.remove_prefix(1);
   const std::size_t equals = line.find('=');
   if (equals == std::string_view::npos) return false;
-  const std::string_view key = trim(line.substr(0, equals));
+  const std::string_view key = text::trim(line.substr(0, equals));
   if (key.empty()) return false;
   parameter.first = std::string(key);
-  parameter.second = std::string(trim(line.substr(equals + 1)));
+  parameter.second = std::string(text::trim(line.substr(equals + 1)));
   return true;
 }
 
 std::string ParameterList::add_line(std::string_view line, Check check) {
   std::pair<std::string, std::string> parameter;
   if (!parse_parameter(line, parameter))
-    return "header line " + in_quotes(line) + ", expected '# key = value'";
+    return "header line " + text::in_quotes(line) + ", expected '# key = value'";
   const auto &[key, value] = parameter;
   const std::string problem = check ? check(key, value) : "";
   if (!problem.empty()) return problem;
   if (!keys_.insert(key).second)
-    return "parameter " + in_quotes(key) + " given twice, expected once";
+    return "parameter " + text::in_quotes(key) + " given twice, expected once";
   all_.push_back(std::move(parameter));
   return {};
 }
@@ -97,7 +98,7 @@ std::string difference(const Parameters &in_file, const Parameters &expected) {
   const Values found(in_file.begin(), in_file.end()), known(expected.begin(), expected.end());
   for (const auto &[key, value] : expected) {
     if (ignored(key)) continue;
-    const std::string wanted(trim(value));
+    const std::string wanted(text::trim(value));
     const auto there = found.find(key);
     if (there == found.end())
       return "parameter '" + key + "' is missing in the file, expected '" + wanted + "'";
@@ -111,4 +112,4 @@ std::string difference(const Parameters &in_file, const Parameters &expected) {
   return {};
 }
 
-}  // namespace LSM::text_io
+}  // namespace LSM::files

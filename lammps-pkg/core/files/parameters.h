@@ -15,7 +15,7 @@
 
 #include "files/text.h"
 
-namespace LSM::text_io {
+namespace LSM::files {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
@@ -34,7 +34,7 @@ struct FileHeader {
   static void set_version(int) {}
 
   /// Value of one of the other parameters, or nullptr.
-  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+  const std::string *find(std::string_view key) const { return files::find(parameters, key); }
 };
 
 /// Reads the value of a required parameter. Returns what is wrong, or "".
@@ -45,8 +45,8 @@ std::string take(const Parameters &parameters, const std::string &key, Value &va
     return "parameter '" + key + "' is missing in the header, expected '# " + key + " = value'";
   if constexpr (std::is_same_v<Value, std::string>)
     value = *text;
-  else if (!parse(*text, value))
-    return "parameter '" + key + "' is " + in_quotes(*text) + ", expected " +
+  else if (!text::parse(*text, value))
+    return "parameter '" + key + "' is " + text::in_quotes(*text) + ", expected " +
            (std::is_integral_v<Value> ? "an integer" : "a finite number");
   return {};
 }
@@ -85,6 +85,6 @@ class ParameterList {
 /// Describes the first difference between the header of a file and the one that a resumed run would
 /// write, or returns "". What may change when a run continues (header_keys.h) is no difference.
 std::string difference(const Parameters &in_file, const Parameters &expected);
-}  // namespace LSM::text_io
+}  // namespace LSM::files
 
 #endif

@@ -10,28 +10,28 @@ double PeSeriesInfo::time(std::int64_t step) const {
   return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
 }
 
-text_io::Parameters PeSeriesInfo::header() const {
-  text_io::Parameters all = binary_io::numbers_of(*this);
+files::Parameters PeSeriesInfo::header() const {
+  files::Parameters all = binary_io::numbers_of(*this);
   if (explicit_times) all.emplace_back("times", "own");
   all.insert(all.end(), parameters.begin(), parameters.end());
   return all;
 }
 
-std::string PeSeriesInfo::read(const text_io::Parameters &all) {
-  const std::string *const times = text_io::find(all, "times");
+std::string PeSeriesInfo::read(const files::Parameters &all) {
+  const std::string *const times = files::find(all, "times");
   explicit_times = times != nullptr;
   if (!times || *times == "own") return {};
-  return "parameter 'times' is " + text_io::in_quotes(*times) + ", expected 'own' or none";
+  return "parameter 'times' is " + text::in_quotes(*times) + ", expected 'own' or none";
 }
 
 std::string PeSeriesInfo::problem() const {
   if (model != "lsm" && model != "block-slider")
-    return "model is " + text_io::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
+    return "model is " + text::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
   if (!std::isfinite(dt) || !(dt > 0.0))
-    return "dt is " + text_io::number(dt) + ", expected a positive number";
+    return "dt is " + text::number(dt) + ", expected a positive number";
   if (!std::isfinite(time0))
-    return "time0 is " + text_io::number(time0) + ", expected a finite number";
-  if (stride < 1) return "stride is " + text_io::number(stride) + ", expected at least 1";
+    return "time0 is " + text::number(time0) + ", expected a finite number";
+  if (stride < 1) return "stride is " + text::number(stride) + ", expected at least 1";
   return {};
 }
 
@@ -50,7 +50,7 @@ bool PeSeriesReader::next(std::int64_t &step, double &time, double &pe) {
     fail("step " + std::to_string(step) + " after step " + std::to_string(last_step_) +
          ", expected increasing steps");
   if (has_last_ && time < last_time_)
-    fail("time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+    fail("time " + text::number(time) + " after time " + text::number(last_time_) +
          ", expected increasing times");
   last_step_ = step;
   last_time_ = time;
@@ -75,7 +75,7 @@ void PeSeriesWriter::create(const std::string &path, const PeSeriesInfo &info) {
 void PeSeriesWriter::find_cut(const std::string &path, const PeSeriesInfo &info,
                               std::int64_t last_step) {
   close();
-  PeSeriesReader reader(text_io::open_plain(path), true);
+  PeSeriesReader reader(files::open_plain(path), true);
   compare(path, reader.info(), info);
   start();
   std::int64_t step = 0, length = old_header_ = reader.end();
@@ -107,7 +107,7 @@ void PeSeriesWriter::write(std::int64_t step, double time, double pe) {
   };
   if (!std::isfinite(time)) refuse(": time is not finite, expected a finite number");
   if (rows_ > 0 && info_.explicit_times && time < last_time_)
-    refuse(": time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+    refuse(": time " + text::number(time) + " after time " + text::number(last_time_) +
            ", expected increasing times");
   if (!std::isfinite(pe)) refuse(": pe is not finite, expected a finite number");
   if (rows_ > 0 && step <= last_step_)

@@ -27,7 +27,7 @@
 namespace LSM {
 
 /// Header of a PE series.
-struct PeSeriesInfo : text_io::FileHeader {
+struct PeSeriesInfo : files::FileHeader {
   static constexpr std::string_view magic = "lsm-pe-series-1\n";
   static constexpr const char *what = "PE series";
 
@@ -47,8 +47,8 @@ struct PeSeriesInfo : text_io::FileHeader {
     f("time0", self.time0);
     f("stride", self.stride);
   }
-  text_io::Parameters header() const;
-  std::string read(const text_io::Parameters &all);
+  files::Parameters header() const;
+  std::string read(const files::Parameters &all);
   std::string problem() const;
   std::int64_t record_bytes() const { return explicit_times ? 24 : 16; }
 };
@@ -56,7 +56,7 @@ struct PeSeriesInfo : text_io::FileHeader {
 /// Reads a PE series sample by sample.
 class PeSeriesReader : public binary_io::RecordReader<PeSeriesInfo> {
  public:
-  explicit PeSeriesReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
+  explicit PeSeriesReader(std::unique_ptr<files::Bytes> in, bool lenient = false)
       : RecordReader(std::move(in), lenient) {}
 
   /// Reads the next sample; returns false at the end of the file. Checks that steps increase and

@@ -23,7 +23,7 @@ std::string content_of(std::string_view head) {
       {"lsm-slip-hist-"sv, "a slip history"},
       {"LammpS RestartT"sv, "a restart file"},
       {"slider_cli checkpoint "sv, "a checkpoint"}};
-  const std::string_view program = text_io::compressed_by(head);
+  const std::string_view program = files::compressed_by(head);
   if (!program.empty()) return "what " + std::string(program) + " has compressed";
   for (const auto &[mark, kind] : kinds)
     if (head.substr(0, mark.size()) == mark) return kind;
@@ -31,9 +31,9 @@ std::string content_of(std::string_view head) {
 }
 
 std::string why_kept(const std::string &path, const Known &known) {
-  if (!text_io::holds_data(path)) return {};
+  if (!files::holds_data(path)) return {};
   constexpr std::size_t enough = 1 << 16;
-  text_io::FileBytes file(path);
+  files::FileBytes file(path);
   const std::string_view head = file.peek(enough);
   if (known && known(head)) return {};
   return path + ": exists already and holds " + content_of(head) +

@@ -18,17 +18,17 @@ namespace LSM {
 namespace {
 
 void move(const std::string &from, const std::string &to) {
-  text_io::sync(from);
+  files::sync(from);
   if (std::rename(from.c_str(), to.c_str()) != 0)
     throw FileError(to + ": cannot create: " + std::generic_category().message(errno));
   const std::string folder = std::filesystem::path(to).parent_path().string();
-  text_io::sync(folder.empty() ? "." : folder);
+  files::sync(folder.empty() ? "." : folder);
 }
 
 }  // namespace
 
 void seal_restart(const std::string &written, const std::string &path,
-                  const text_io::Parameters &settings) {
+                  const files::Parameters &settings) {
   const FileSum sum = sum_of_file(written);
   std::string text;
   for (const auto &[key, value] : settings) text += key + " = " + value + "\n";
@@ -38,21 +38,21 @@ void seal_restart(const std::string &written, const std::string &path,
   std::error_code code;
   std::filesystem::remove(info, code);
   move(written, path);
-  text_io::write_file(info, text, true);
+  files::write_file(info, text, true);
 }
 
-text_io::Parameters check_restart(const std::string &path) {
+files::Parameters check_restart(const std::string &path) {
   const std::string info = path + ".info";
   const FileSum sum = sum_of_file(path);
   std::ifstream in(info);
   if (!in)
     throw FileError(path + ": its checksum file " + info +
                     " is missing, so it may be incomplete; use an earlier restart file");
-  text_io::Parameters settings;
+  files::Parameters settings;
   std::string line, sums, above, stated;
   while (std::getline(in, line)) {
     std::pair<std::string, std::string> setting;
-    if (!text_io::parse_parameter("#" + line, setting)) {
+    if (!files::parse_parameter("#" + line, setting)) {
       sums = line;
     } else if (setting.first == "lines") {
       stated = setting.second;

@@ -20,12 +20,12 @@ namespace LSM {
 /// complete.
 /// \throws FileError
 void seal_restart(const std::string &written, const std::string &path,
-                  const text_io::Parameters &settings);
+                  const files::Parameters &settings);
 
 /// Compares a restart file with its FILE.info and returns the settings in it, which are empty if
 /// the info file has only its last line.
 /// \throws FileError with the reason in one line
-text_io::Parameters check_restart(const std::string &path);
+files::Parameters check_restart(const std::string &path);
 
 }  // namespace LSM
 

@@ -6,15 +6,15 @@
 
 namespace LSM {
 
-text_io::Parameters SlipHistoryInfo::header() const {
-  text_io::Parameters all = binary_io::numbers_of(*this);
+files::Parameters SlipHistoryInfo::header() const {
+  files::Parameters all = binary_io::numbers_of(*this);
   all.insert(all.end(), parameters.begin(), parameters.end());
   return all;
 }
 
-std::string SlipHistoryInfo::read(const text_io::Parameters &all) {
+std::string SlipHistoryInfo::read(const files::Parameters &all) {
   const auto ring = [&all](const char *key) {
-    const std::string *const ends = text_io::find(all, key);
+    const std::string *const ends = files::find(all, key);
     return !ends || *ends != "open";
   };
   grid.ring = ring("ends");
@@ -23,28 +23,28 @@ std::string SlipHistoryInfo::read(const text_io::Parameters &all) {
 }
 
 std::string SlipHistoryInfo::problem() const {
-  if (model != "lsm") return "model is " + text_io::in_quotes(model) + ", expected 'lsm'";
+  if (model != "lsm") return "model is " + text::in_quotes(model) + ", expected 'lsm'";
   if (grid.bins < 1 || grid.bins > most_bins)
     return "bins is not a number of bins, expected 1 to " + std::to_string(most_bins);
   if (grid.rows < 1 || grid.rows > most_bins / grid.bins)
-    return "bins_dip is " + text_io::number(grid.rows) + ", expected 1 to " +
+    return "bins_dip is " + text::number(grid.rows) + ", expected 1 to " +
            std::to_string(most_bins / grid.bins) + " with " + std::to_string(grid.bins) + " bins";
   for (const auto &[name, value] : {std::pair<const char *, double>{"bin", grid.width},
                                     {"bin_dip", grid.height},
                                     {"dt", grid.dt},
                                     {"modulus", ruptures.modulus}})
     if (!(value > 0.0))
-      return std::string(name) + " is " + text_io::number(value) + ", expected a positive number";
+      return std::string(name) + " is " + text::number(value) + ", expected a positive number";
   for (const auto &[name, value] :
        {std::pair<const char *, std::int64_t>{"interval", grid.interval},
         {"memory_intervals", ruptures.memory},
         {"quiet", quiet}})
     if (value < 1)
-      return std::string(name) + " is " + text_io::number(value) + ", expected at least 1";
+      return std::string(name) + " is " + text::number(value) + ", expected at least 1";
   if (ruptures.gap < 0 || ruptures.gap > most_bins)
     return "gap is out of range, expected 0 to " + std::to_string(most_bins);
   if (!(ruptures.velocity >= 0.0))
-    return "slip_velocity is " + text_io::number(ruptures.velocity) + ", expected at least 0";
+    return "slip_velocity is " + text::number(ruptures.velocity) + ", expected at least 0";
   return {};
 }
 
@@ -108,7 +108,7 @@ void SlipHistoryWriter::find_cut(const std::string &path, const SlipHistoryInfo 
   const FaultRow row(info.grid);
   if (saved.size() != 4 + row.slip.size() + row.work.size() + row.stress.size())
     refuse(path, "the saved state is of another fault");
-  SlipHistoryReader reader(text_io::open_plain(path), true);
+  SlipHistoryReader reader(files::open_plain(path), true);
   compare(path, reader.info(), info);
   start(0);
   StateReader in(saved);

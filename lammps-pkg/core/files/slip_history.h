@@ -37,7 +37,7 @@
 namespace LSM {
 
 /// Header of a slip history.
-struct SlipHistoryInfo : text_io::FileHeader {
+struct SlipHistoryInfo : files::FileHeader {
   static constexpr std::string_view magic = "lsm-slip-hist-1\n";
   static constexpr const char *what = "slip history";
   static constexpr int most_bins = 1 << 20;  ///< of a plane cells
@@ -72,8 +72,8 @@ struct SlipHistoryInfo : text_io::FileHeader {
     f("z0", self.grid.z0);
     f("bin_dip", self.grid.height);
   }
-  text_io::Parameters header() const;
-  std::string read(const text_io::Parameters &all);
+  files::Parameters header() const;
+  std::string read(const files::Parameters &all);
   std::string problem() const;
   std::int64_t record_bytes() const {
     return 24 + 4 * static_cast<std::int64_t>((2 * grid.components() + 1) *
@@ -91,7 +91,7 @@ struct SlipRecord {
 /// Reads a slip history record by record.
 class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
  public:
-  explicit SlipHistoryReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
+  explicit SlipHistoryReader(std::unique_ptr<files::Bytes> in, bool lenient = false)
       : RecordReader(std::move(in), lenient) {}
 
   /// Reads the next record. Returns false at the end of the file.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "files/text.h"
 
-namespace LSM::text_io {
+namespace LSM::text {
 
 std::string_view trim(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
@@ -35,4 +35,4 @@ std::string where(const std::string &path, std::int64_t line) {
   return path + ":" + std::to_string(line) + ": ";
 }
 
-}  // namespace LSM::text_io
+}  // namespace LSM::text

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace LSM::text_io {
+namespace LSM::text {
 
 /// Writes 17 significant digits, so that reading them gives the same double.
 template <class T>
@@ -54,6 +54,6 @@ void split(std::string_view line, std::vector<std::string_view> &fields);
 std::string in_quotes(std::string_view text);
 
 std::string where(const std::string &path, std::int64_t line);
-}  // namespace LSM::text_io
+}  // namespace LSM::text
 
 #endif
