@@ -25,9 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -63,12 +61,16 @@ void BondLSMLinked::compute(int eflag, int vflag)
   if (evflag) tally();
 }
 
-// Returns the indices that sort the keys; equal keys keep their order. A radix sort, which takes a
-// fraction of the time of a sort by comparisons.
-static std::vector<int> sorted_by(const std::vector<tagint> &keys)
+// Returns the indices that sort the elements by their keys; equal keys keep their order. A radix
+// sort, which takes a fraction of the time of a sort by comparisons.
+template <class Element, class Key>
+static std::vector<int> sorted_by(const std::vector<Element> &elements, const Key &key)
 {
   constexpr int BITS = 11;
-  std::vector<int> order(keys.size()), next(keys.size());
+  std::vector<int> order(elements.size()), next(elements.size());
+  std::vector<tagint> keys;
+  keys.reserve(elements.size());
+  for (const Element &one : elements) keys.push_back(key(one));
   std::iota(order.begin(), order.end(), 0);
   tagint most = keys.empty() ? 0 : *std::max_element(keys.begin(), keys.end());
   for (int shift = 0; most > 0; shift += BITS, most >>= BITS) {
@@ -90,40 +92,50 @@ static std::vector<int> sorted_by(const std::vector<tagint> &keys)
 // each of which counts half of its energy.
 void BondLSMLinked::collect()
 {
-  struct Link {
-    tagint high, first;
+  struct Ends {
     int i, j;
-    bool operator<(const Link &o) const
-    {
-      return std::tie(high, first) < std::tie(o.high, o.first);
-    }
   };
 
   const tagint *const tag = atom->tag;
   const int nlocal = atom->nlocal;
   int **const bondlist = neighbor->bondlist;
-  std::map<std::pair<bool, int>, std::pair<std::vector<Link>, std::vector<tagint>>> kinds;
+  const int types = atom->nbondtypes;
+  const auto kind_of = [&](const int *bond) {
+    return bond[2] - 1 + (!force->newton_bond && bond[1] >= nlocal ? types : 0);
+  };
+  // a list at a time, of the size that it needs: a lattice has nine links per node
+  std::vector<std::vector<Ends>> kinds(2 * types);
+  std::vector<std::size_t> count(2 * types, 0);
+  for (int n = 0; n < neighbor->nbondlist; n++)
+    if (bondlist[n][2] > 0) count[kind_of(bondlist[n])]++;
+  for (int kind = 0; kind < 2 * types; kind++) kinds[kind].reserve(count[kind]);
   for (int n = 0; n < neighbor->nbondlist; n++) {
     int i = bondlist[n][0], j = bondlist[n][1];
-    const int type = bondlist[n][2];
-    if (type <= 0) continue;
+    if (bondlist[n][2] <= 0) continue;
+    const int kind = kind_of(bondlist[n]);
     if (j < nlocal && tag[j] < tag[i]) std::swap(i, j);
-    auto &[links, low] = kinds[{!force->newton_bond && j >= nlocal, type}];
-    links.push_back({MAX(tag[i], tag[j]), tag[i], i, j});
-    low.push_back(MIN(tag[i], tag[j]));
+    kinds[kind].push_back({i, j});
   }
 
   const std::vector<int> owned = owned_by_id();
   const double *const radius = atom->radius;
   segments.clear();
-  for (const auto &[kind, of_kind] : kinds) {
-    const auto &[links, low] = of_kind;
-    const auto [first_only, type] = kind;
-    std::vector<int> order = sorted_by(low);
+  for (int kind = 0; kind < 2 * types; kind++) {
+    std::vector<Ends> &links = kinds[kind];
+    if (links.empty()) continue;
+    const bool first_only = kind >= types;
+    const int type = 1 + kind % types;
+    const auto low = [tag](const Ends &link) { return MIN(tag[link.i], tag[link.j]); };
+    std::vector<int> order = sorted_by(links, low);
     for (auto begin = order.begin(); begin != order.end();) {
-      const auto end = std::find_if(begin, order.end(),
-                                    [&low = low, of = low[*begin]](int n) { return low[n] != of; });
-      std::sort(begin, end, [&links = links](int a, int b) { return links[a] < links[b]; });
+      const auto end = std::find_if(
+          begin, order.end(), [&, of = low(links[*begin])](int n) { return low(links[n]) != of; });
+      std::sort(begin, end, [&](int a, int b) {
+        const auto key = [&](const Ends &link) {
+          return std::make_pair(MAX(tag[link.i], tag[link.j]), tag[link.i]);
+        };
+        return key(links[a]) < key(links[b]);
+      });
       begin = end;
     }
     std::vector<LSMLinkRows::Link> sorted;
@@ -131,9 +143,12 @@ void BondLSMLinked::collect()
     for (int n : order)
       sorted.push_back(
           {links[n].i, links[n].j, factor[type] * (radius[links[n].i] + radius[links[n].j])});
+    std::vector<Ends>().swap(links);
+    std::vector<int>().swap(order);
     segments.push_back(
         {type, first_only,
-         LSMLinkRows::make_rows(owned, sorted, nlocal, nlocal + atom->nghost, first_only)});
+         LSMLinkRows::make_rows(owned, std::move(sorted), nlocal, nlocal + atom->nghost, first_only,
+                                ratio[type] == 0.0)});
   }
   collected_at = neighbor->lastcall;
 }
@@ -222,7 +237,7 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
   for (const Segment &s : segments)
     for (const LSMLinkRows::Stack &stack : s.rows.stacks)
       for (int n = 0; n < stack.slices * stack.length * LANES; n++) {
-        const double rest = s.rows.rest[stack.link + n];
+        const double rest = s.rows.rest[stack.rest + (stack.rest_step ? n : 0)];
         if (rest == LSMLinkRows::NO_LINK) continue;
         const int row = n / (stack.length * LANES) * LANES + n % LANES;
         act(s, s.rows.particle[stack.row + row] / 3, s.rows.other[stack.link + n] / 3, rest);

@@ -425,7 +425,7 @@ double FixLSMNVE::largest_eigenvalue(double reach_factor, bool viscous, double p
     MathEigen::jacobi3(matrix, values, vectors);
     most = MAX(most, values[0]);
   }
-  alone.clear();
+  std::vector<double>().swap(alone);
   return lsm_largest(most, world);
 }
 

@@ -50,8 +50,8 @@ struct Fault {
     std::vector<int> owned(particles);
     std::iota(owned.begin(), owned.end(), 0);
     const int all = static_cast<int>(x.size() / 3);
-    rows = LSMLinkRows::make_rows(owned, links, particles, all, false);
-    rows_to_ghosts = LSMLinkRows::make_rows(owned, to_ghosts, particles, all, true);
+    rows = LSMLinkRows::make_rows(owned, links, particles, all, false, true);
+    rows_to_ghosts = LSMLinkRows::make_rows(owned, to_ghosts, particles, all, true, true);
   }
 
   static Fault &of(int length) {
@@ -114,8 +114,8 @@ void make_lists(benchmark::State &state) {
   std::vector<int> owned(fault.particles);
   std::iota(owned.begin(), owned.end(), 0);
   for (auto _ : state)
-    benchmark::DoNotOptimize(LSMLinkRows::make_rows(owned, fault.links, fault.particles,
-                                                    static_cast<int>(fault.x.size() / 3), false));
+    benchmark::DoNotOptimize(LSMLinkRows::make_rows(
+        owned, fault.links, fault.particles, static_cast<int>(fault.x.size() / 3), false, true));
   report(state, fault);
 }
 

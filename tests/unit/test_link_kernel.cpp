@@ -57,8 +57,8 @@ Network links_to_ghosts(Network net) {
   return net;
 }
 
-Rows rows_of(const Network &net, bool mixed = false) {
-  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed);
+Rows rows_of(const Network &net, bool mixed = false, bool share = false) {
+  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed, share);
 }
 
 struct Evaluation {
@@ -113,7 +113,7 @@ std::multiset<std::pair<int, int>> pairs_of(const Rows &rows) {
   std::multiset<std::pair<int, int>> all;
   for (const auto &stack : rows.stacks)
     for (int n = 0; n < stack.slices * stack.length * LSMLinkRows::LANES; ++n) {
-      if (rows.rest[stack.link + n] == LSMLinkRows::NO_LINK) continue;
+      if (rows.rest[stack.rest + (stack.rest_step ? n : 0)] == LSMLinkRows::NO_LINK) continue;
       const int row = n / (stack.length * LSMLinkRows::LANES) * LSMLinkRows::LANES;
       const int i = rows.particle[stack.row + row + n % LSMLinkRows::LANES] / 3;
       all.insert(std::minmax(i, rows.other[stack.link + n] / 3));
@@ -127,6 +127,22 @@ TEST(LinkRows, HoldEachLinkOnce) {
     std::multiset<std::pair<int, int>> expected;
     for (const Link &link : net.links) expected.insert(std::minmax(link.i, link.j));
     for (bool mixed : {false, true}) EXPECT_EQ(pairs_of(rows_of(net, mixed)), expected) << side;
+  }
+}
+
+TEST(LinkRows, KeepOneRestLengthOnce) {
+  const auto each = make_network(40, 3, 7);
+  Network same = each;
+  for (Link &link : same.links) link.rest = 1.25;
+  for (const Network &net : {each, same}) {
+    const Rows rows = rows_of(net, false, true), plain = rows_of(net);
+    EXPECT_EQ(pairs_of(rows), pairs_of(plain));
+    const Evaluation a = evaluate<3>(net, rows, Elastic{0.7}),
+                     b = evaluate<3>(net, plain, Elastic{0.7});
+    EXPECT_EQ(a.energy, b.energy);
+    EXPECT_EQ(a.f, b.f);
+    const bool once = rows.rest.size() < 0.2 * plain.rest.size();
+    EXPECT_EQ(once, net.links[0].rest == net.links[1].rest);
   }
 }
 

@@ -119,7 +119,8 @@ namespace LSMLinkKernel {
     Known ring[STAGES];
     const int *row_in = &rows.particle[stack.row], *row_out = row_in;
     const int *other_in = &rows.other[stack.link], *other_out = other_in;
-    const double *rest = &rows.rest[stack.link];
+    const double *rest = &rows.rest[stack.rest];
+    const int rest_step = Law::breaks ? LANES : stack.rest_step;
     Lanes twice{};                    // the energy
     [[maybe_unused]] Lanes lost{};    // the power
 
@@ -163,10 +164,12 @@ namespace LSMLinkKernel {
           any |= law.is_broken(s.r[n], load<Lanes>(rest + n * LANES));
         if (any[0] | any[1] | any[2] | any[3])
           note_broken(law, LENGTH, reinterpret_cast<const double *>(s.r), rest,
-                      {stack.row + slice * LANES, static_cast<int>(rest - &rows.rest[0])}, broken);
+                      {stack.row + slice * LANES,
+                       stack.link + static_cast<int>(rest - &rows.rest[stack.rest])},
+                      broken);
       }
 #pragma GCC unroll 4
-      for (int n = 0; n < LENGTH; n++, rest += LANES) {
+      for (int n = 0; n < LENGTH; n++, rest += rest_step) {
         const Lanes r = s.r[n], r0 = load<Lanes>(rest);
         Lanes stretch = r - r0;
         if constexpr (FILLED_UP) stretch = r0 < LSMLinkRows::NO_LINK ? stretch : Lanes{};

@@ -58,7 +58,7 @@ namespace LSMLinkKernel {
     }
   };
 
-  /// A link: its index in Rows::particle, and in Rows::other and rest.
+  /// A link: its index in Rows::particle, and in Rows::other and, if it can break, in Rows::rest.
   struct Place {
     int row, link;
   };

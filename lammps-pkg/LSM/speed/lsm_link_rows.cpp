@@ -44,13 +44,20 @@ namespace LSMLinkRows {
   }
 
   static void add_stack(Rows &o, const Owners &of, std::vector<Row> &rows, int length,
-                        bool filled_up)
+                        bool filled_up, bool share)
   {
     if (rows.empty()) return;
+    const double first = of.rest[rows[0].first];
+    const bool once =
+        share && !filled_up && std::all_of(rows.begin(), rows.end(), [&](const Row &r) {
+          return std::all_of(&of.rest[r.first], &of.rest[r.first] + r.length,
+                             [first](double rest) { return rest == first; });
+        });
     while (rows.size() % LANES) rows.push_back({rows.back().i, rows.back().first, 0});
     o.stacks.push_back({static_cast<int>(rows.size()) / LANES, length, filled_up,
-                        static_cast<int>(o.particle.size()), static_cast<int>(o.other.size()), 0,
-                        0});
+                        static_cast<int>(o.particle.size()), static_cast<int>(o.other.size()),
+                        static_cast<int>(o.rest.size()), once ? 0 : LANES, 0, 0});
+    if (once) o.rest.insert(o.rest.end(), LANES, first);
     for (std::size_t slice = 0; slice < rows.size(); slice += LANES) {
       for (int c = 0; c < LANES; c++) o.particle.push_back(3 * rows[slice + c].i);
       for (int n = 0; n < length; n++)
@@ -59,14 +66,15 @@ namespace LSMLinkRows {
           const bool is_link = n < row.length;
           const int link = row.first + (is_link ? n : 0);
           o.other.push_back(3 * of.other[link]);
-          o.rest.push_back(is_link ? of.rest[link] : NO_LINK);
+          if (!once) o.rest.push_back(is_link ? of.rest[link] : NO_LINK);
         }
     }
   }
 
   // Adds the rows of the particles of a window, the longest first. Rows left over that do not fill
   // a slice form one of mixed lengths.
-  static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed)
+  static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed,
+                         bool share)
   {
     std::array<std::vector<Row>, LONGEST + 1> rows;
     for (; first < last; first++) {
@@ -84,9 +92,9 @@ namespace LSMLinkRows {
       const auto end = mixed ? full.begin() : full.end() - full.size() % LANES;
       left.insert(left.end(), end, full.end());
       full.erase(end, full.end());
-      add_stack(o, of, full, length, false);
+      add_stack(o, of, full, length, false, share);
     }
-    add_stack(o, of, left, LONGEST, true);
+    add_stack(o, of, left, LONGEST, true, share);
   }
 
   // Lists the cache lines used by the stacks from `first` on and not by those of the previous
@@ -119,20 +127,24 @@ namespace LSMLinkRows {
     }
   }
 
-  Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
-                 int nall, bool mixed)
+  Rows make_rows(const std::vector<int> &owned, std::vector<Link> links, int nlocal, int nall,
+                 bool mixed, bool share)
   {
     const Owners of(links, nlocal);
     Rows o;
+    o.other.reserve(links.size() + links.size() / 16);
+    std::vector<Link>().swap(links);
     std::vector<int> used(3 * nall / LINE + 1, -2);
     std::size_t before = 0;    // where the stacks of the window before begin
     const int n = static_cast<int>(owned.size());
     for (int from = 0, window = 0; from < n; from += WINDOW, window++) {
       const std::size_t first = o.stacks.size();
-      add_window(o, of, &owned[from], &owned[0] + std::min(n, from + WINDOW), mixed);
+      add_window(o, of, &owned[from], &owned[0] + std::min(n, from + WINDOW), mixed, share);
       fetch_ahead(o, before, first, used, window);
       before = first;
     }
+    for (auto *all : {&o.particle, &o.other, &o.to_fetch}) all->shrink_to_fit();
+    o.rest.shrink_to_fit();
     return o;
   }
 

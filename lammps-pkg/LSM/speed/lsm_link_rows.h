@@ -26,7 +26,9 @@ namespace LSMLinkRows {
   struct Stack {
     int slices, length;
     bool filled_up;          ///< some places hold no link
-    int row, link;           ///< where it begins in Rows::particle, and in Rows::other and rest
+    int row, link;           ///< where it begins in Rows::particle, and in Rows::other
+    int rest;                ///< where it begins in Rows::rest
+    int rest_step;           ///< LANES, or 0 if all of its links have the rest length there
     int fetch, fetch_end;    ///< what to fetch meanwhile, in Rows::to_fetch
   };
 
@@ -35,20 +37,22 @@ namespace LSMLinkRows {
     std::vector<Stack> stacks;
     std::vector<int> particle;    ///< place of the particle of each row, LANES for each slice
     std::vector<int> other;       ///< place of its partner, LANES for each link of a slice
-    std::vector<double> rest;     ///< rest length, or NO_LINK
+    std::vector<double> rest;     ///< rest length, or NO_LINK; LANES for all links of a stack, or
+                                  ///< for each of a slice
     std::vector<int> to_fetch;    ///< places to fetch into the cache
   };
 
   /// Arranges links in rows. Their order follows from those of `owned` and `links` alone, so both
   /// orders have to follow from the particle IDs.
   /// \param owned  local indices of the particles of this rank, each once
-  /// \param links  the first end of each is owned
+  /// \param links  the first end of each is owned; they are freed
   /// \param nlocal particles of this rank: those with local indices from this on are ghosts and
   /// have no rows
   /// \param nall   local indices are below this
   /// \param mixed  put rows of all lengths side by side, filled up to the longest: for few links
-  Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
-                 int nall, bool mixed);
+  /// \param share  keep the rest length of a stack once where all of its links have the same
+  Rows make_rows(const std::vector<int> &owned, std::vector<Link> links, int nlocal, int nall,
+                 bool mixed, bool share);
 
 }    // namespace LSMLinkRows
 }    // namespace LAMMPS_NS
