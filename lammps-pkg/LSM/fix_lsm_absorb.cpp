@@ -6,6 +6,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -43,6 +44,9 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
 void FixLSMAbsorb::init()
 {
   LSMScene::require_verlet(lmp, "Fix lsm/absorb");
+  if (group->count(igroup) == 0)
+    error->all(FLERR, "Fix lsm/absorb {}: group {} has no particles, expected those of a border",
+               id, group->names[igroup]);
 }
 
 // Within a run, velocities are half a step older than the forces. The dashpot acts on the velocity

@@ -33,6 +33,8 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
 
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix lsm/leap needs dimension 2, found dimension {}", domain->dimension);
   plates_id = arg[3];
   LSMKeywordReader(lmp, "Fix lsm/leap", 4, narg, arg).read_all(keywords());
   reset_dt();

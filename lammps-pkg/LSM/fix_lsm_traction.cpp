@@ -50,6 +50,9 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
     if (which < 0)
       error->all(FLERR, "Fix lsm/traction {} group '{}' does not exist", s ? "upper" : "lower",
                  arg[3 + s]);
+    if (group->count(which) == 0)
+      error->all(FLERR, "Fix lsm/traction {} group '{}' has no particles, expected a face",
+                 s ? "upper" : "lower", arg[3 + s]);
     side[s] = group->bitmask[which];
     traction[s] = arg[5 + s];
   }

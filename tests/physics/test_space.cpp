@@ -275,7 +275,12 @@ TEST_F(Space, WhatIsWrongIsNamed) {
   refused(patch(), "dip 1e-4", "share spacing", "share needs dimension 2, found dimension 3");
   refused(patch(), "timestep        0.1", "timestep        0.7", "above the stability limit");
   refused(patch(), "fix             caps", "fix leap all lsm/leap plates\nfix             caps",
-          "lsm/leap");
+          "Fix lsm/leap needs dimension 2, found dimension 3");
+  refused(patch(), "group           caps type 5 6",
+          "region none block 99 100 INF INF INF INF units box\ngroup caps region none",
+          "Fix lsm/absorb caps: group caps has no particles, expected those of a border");
+  refused(patch(), "group           lower type 3", "group lower type 4 3\ngroup lower clear",
+          "Fix lsm/traction lower group 'lower' has no particles, expected a face");
   refused(patch(), "rest $(sqrt(2):%.17g)", "rest 0", "rest");
   refused(patch(), "fix             caps",
           "fix plates all lsm/plates lower upper position\nfix             caps",
