@@ -215,6 +215,8 @@ void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
       all = all && LSMSceneVariable::expected(value, accepted).empty();
       where += (where.empty() ? "" : " and ") + name + " is " + value;
     }
+    if (all && !one.refused.empty())
+      error->all(FLERR, "Variable {}, but then {}", where, one.refused);
     for (const std::string &name : one.names) {
       if (!all || !is_given(name)) continue;
       // a run that began with this value may continue with it

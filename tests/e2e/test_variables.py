@@ -128,6 +128,12 @@ def test_variables_that_others_make_count(lmp):
         assert float(header(f"{prefix}.catalogue.csv")[name]) == float(value)
 
 
+def test_variables_that_cannot_be_together(lmp):
+    refused(lmp, small(contacts="fault", loose="keep"),
+            "Variable contacts is fault and loose is keep, but then nothing holds discs that are not linked")
+    run(lmp, small(contacts="smooth", loose="keep", steps=1))
+
+
 def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
     """Runs of earlier versions may have such variables, which studies give again; another value has no effect."""
     run(lmp, small(hold="position"))
@@ -218,6 +224,7 @@ def test_a_long_time_step_makes_another_model(lmp):
                                          ("x|1|number|-|-||\nx|2|number|-|-||", ":2: a second variable x"),
                                          ("when y 1 : x 2\nx|1|number|-|-||", "there is no variable y"),
                                          ("x 1 ignores y\nx|1|number|-|-||", "there is no variable y"),
+                                         ("never x 1 & y 2 : why\nx|1|number|-|-||", "there is no variable y"),
                                          ("x ignores x\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("when x : x 2\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("x|${y}|number|-|-||\ny|1|number|-|-||", "variable y is needed before it is defined")])

@@ -100,11 +100,16 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
         replaced.emplace_back(what.substr(0, replaces), split(what.substr(replaces + 10), ','));
         continue;
       }
-      if (cells.size() == 1 && ignores != std::string::npos) {
+      const bool never = what.compare(0, 6, "never ") == 0 && colon != std::string::npos;
+      if (never || (cells.size() == 1 && ignores != std::string::npos)) {
         Ignored one;
-        for (const std::string &part : split(what.substr(0, ignores), '&'))
+        for (const std::string &part :
+             split(never ? what.substr(6, colon - 6) : what.substr(0, ignores), '&'))
           one.where.push_back(name_and_value(part));
-        one.names = split(what.substr(ignores + 9), ',');
+        if (never)
+          one.refused = LSM::text_io::trim(what.substr(colon + 1));
+        else
+          one.names = split(what.substr(ignores + 9), ',');
         ignored.push_back(one);
         continue;
       }

@@ -36,10 +36,12 @@ class LSMVariableTable {
   std::vector<LSMSceneVariable> variables;
   /// A variable, and others that have no effect if it is given.
   std::vector<std::pair<std::string, std::vector<std::string>>> replaced;
-  /// Variables, each with what it must be, and others that have no effect where all of them are.
+  /// Variables, each with what it must be, and others that have no effect where all of them are;
+  /// or why all of them must not be so.
   struct Ignored {
     std::vector<std::pair<std::string, std::string>> where;
     std::vector<std::string> names;
+    std::string refused;
   };
   std::vector<Ignored> ignored;
 
