@@ -6,10 +6,15 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 import pytest
-from data_files import table
+from data_files import edit, read_catalogue, read_series, table
 from programs import INPUTS, SOURCE, Program, refused, run, scene
 
+sys.path.insert(0, str(SOURCE / "results"))
+from rupture_3d import Plane  # noqa: E402
+
+TPV5 = dict(dx=1000, length=36000, width=12000, depth=16000, checkpoint=20)  # 80 steps in 4 s
 COMPARE = Program("rupture_benchmark.py", sys.executable, SOURCE / "results/rupture_benchmark.py")
 
 
@@ -59,3 +64,35 @@ def test_tpv205(ruptured):
 def test_tpv3(ruptured):
     stations, late, slip = ruptured("tpv3", "--no-picture")
     assert sum(stations.values()) == 17 and late < 0.08 and slip < 0.015
+
+
+def tpv5(program, prefix, **variables):
+    """The scene TPV5, which writes a catalogue of drops and a PE series as well."""
+    edit(INPUTS / "rupture_tpv5.in", "tpv5.in", ("lsm/events sides", "lsm/events catalogue ${prefix}.catalogue.csv series ${prefix}.pe.bin sides"))
+    run(program, ["-in", "tpv5.in", *scene(**TPV5, prefix=prefix, **variables)[2:]])
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_tpv5_goes_on_byte_for_byte(on_ranks, ranks):
+    """The restart file is written within an interval of the catalogue, with a rupture that goes on; the next one repeats it."""
+    files = [f"{{}}.{ending}" for ending in ("catalogue.csv", "pe.bin", "ruptures.csv", "slip.bin")]
+    tpv5(on_ranks(ranks), "whole", tend=4)
+    tpv5(on_ranks(ranks), "part", tend=2)
+    tpv5(on_ranks(ranks), "part", tend=4, restart="part.restart.20")
+    for name in files:
+        assert Path(name.format("part")).read_bytes() == Path(name.format("whole")).read_bytes(), name
+    rupture = table("whole.ruptures.csv")[0]
+    assert int(rupture["step_start"]) < 20 < int(rupture["step_end"]) and float(rupture["rupture_area"]) > 3e7
+
+
+def test_tpv5_on_ranks(on_ranks):
+    """Sums over ranks have another order, so that numbers agree to rounding; the history holds floats."""
+    for ranks in (1, 2):
+        tpv5(on_ranks(ranks), f"on_{ranks}", tend=4)
+    one, two = (read_catalogue(f"on_{ranks}.ruptures.csv")[1] for ranks in (1, 2))
+    assert len(one["size"]) >= 1
+    for name, values in one.items():
+        assert two[name] == pytest.approx(values, rel=1e-6, abs=1e-6 * np.abs(values).max()), name
+    slip = [Plane(f"on_{ranks}.slip.bin").more.astype(float).sum(axis=0) for ranks in (1, 2)]
+    assert np.abs(slip[0] - slip[1]).max() < 1e-6 * slip[0].max() and slip[0].max() > 1e-5
+    assert read_series("on_2.pe.bin")[3] == pytest.approx(read_series("on_1.pe.bin")[3], rel=1e-9)
