@@ -107,7 +107,7 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
              split(never ? what.substr(6, colon - 6) : what.substr(0, ignores), '&'))
           one.where.push_back(name_and_value(part));
         if (never)
-          one.refused = LSM::text_io::trim(what.substr(colon + 1));
+          one.refused = LSM::text::trim(what.substr(colon + 1));
         else
           one.names = split(what.substr(ignores + 9), ',');
         ignored.push_back(one);
