@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+import xml.etree.ElementTree as ElementTree
 from collections import Counter
 from pathlib import Path
 
@@ -96,3 +97,21 @@ def test_tpv5_on_ranks(on_ranks):
     slip = [Plane(f"on_{ranks}.slip.bin").more.astype(float).sum(axis=0) for ranks in (1, 2)]
     assert np.abs(slip[0] - slip[1]).max() < 1e-6 * slip[0].max() and slip[0].max() > 1e-5
     assert read_series("on_2.pe.bin")[3] == pytest.approx(read_series("on_1.pe.bin")[3], rel=1e-9)
+
+
+def test_tpv5_in_paraview(lmp):
+    """The slip rates written for ParaView are those of the slip history, of which all bytes are as without them."""
+    tpv5(lmp, "plain", tend=3)
+    tpv5(lmp, "shown", tend=3, pictures=20)
+    assert Path("shown.slip.bin").read_bytes() == Path("plain.slip.bin").read_bytes()
+    plane, grid = Plane("shown.slip.bin"), ElementTree.parse("shown.40.vtr").getroot().find("RectilinearGrid")
+    strike, across, dip = (np.array(one.text.split(), float) for one in grid.find("Piece/Coordinates"))
+    assert len(across) == 2 and 0.5 * (strike[1:] + strike[:-1]) == pytest.approx(plane.strike) and 0.5 * (dip[1:] + dip[:-1]) == pytest.approx(
+        plane.dip)
+    rate = np.array(grid.find("Piece/CellData/DataArray").text.split(), float).reshape(len(dip) - 1, len(strike) - 1, 3)
+    n = int(np.flatnonzero(plane.time < 2)[-1])  # records before and after step 40
+    means = (plane.more[n:n + 2].astype(float) / plane.scale / plane.duration[n:n + 2, None, None, None]).mean(axis=0)
+    assert means[..., 0].max() > 0.5
+    for component, found in ((0, rate[..., 0].T), (1, rate[..., 2].T)):
+        assert np.abs(found - means[..., component]).max() < 0.05 * means[..., 0].max()
+    assert np.abs(rate[..., 0]).max() == pytest.approx(means[..., 0].max(), rel=0.05)
