@@ -149,19 +149,20 @@ TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
   // All catalogues of a model have the same threshold, which is never below the paper's.
   for (std::size_t i : {0, 1, 2}) {
     EXPECT_EQ(none.of(tables[i]).size, 0.003);
-    EXPECT_EQ(text(none.of(tables[i])), "0.003, completeness in the header of " + options.paths[1]);
+    EXPECT_EQ(postproc::text(none.of(tables[i])),
+              "0.003, completeness in the header of " + options.paths[1]);
     EXPECT_EQ(tables[i].complete_from, 0.0);  // nothing is left out for it
   }
   for (std::size_t i : {3, 4}) {
     EXPECT_EQ(none.of(tables[i]).size, 1e-4);
-    EXPECT_EQ(text(none.of(tables[i])), "0.0001, that of the paper's Figs. 12 and 13");
+    EXPECT_EQ(postproc::text(none.of(tables[i])), "0.0001, that of the paper's Figs. 12 and 13");
   }
   for (const EventTable &table : tables) EXPECT_EQ(given.of(table).size, 0.25);
-  EXPECT_EQ(text(given.of(tables[0])), "0.25, as given");
+  EXPECT_EQ(postproc::text(given.of(tables[0])), "0.25, as given");
   EXPECT_EQ(Threshold(0.0).of(tables[0]).size, 0.0);
   EXPECT_EQ(texts(none, tables),
             (std::vector<std::string>{
-                "smallest size, fault: " + text(none.of(tables[0])),
+                "smallest size, fault: " + postproc::text(none.of(tables[0])),
                 "smallest size, block-slider: 0.0001, that of the paper's Figs. 12 and 13"}));
 }
 
