@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Starts one run of a study, or continues it where it was stopped.
 
-run.py FOLDER fault|slider|esys|catalogue RANKS CHECKPOINT BIN NAME=VALUE...
+run.py FOLDER fault|slider|esys|catalogue|rupture_SCENE RANKS CHECKPOINT BIN NAME=VALUE...
 
 FOLDER has settings.txt (the settings of the run; others need another folder), output.txt (the output of the
 program), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL (seconds
 since 1970), ends the run at its next restart file or checkpoint. SIGINT, SIGHUP or the end of the caller ends it
 at once, and the steps since the last restart file are repeated. Neither loses an event. A fault by ESyS-Particle
-(esys) starts over. Exit status: 0 done, 75 stopped, to be continued, 1 failed.
+(esys) starts over, and so does a rupture (rupture_tpv5: the scene rupture_tpv5.in), which takes minutes. Exit
+status: 0 done, 75 stopped, to be continued, 1 failed.
 
 The classes state which names a program knows (known()), and which of them are set here and not by a table (OWN).
 """
@@ -83,7 +84,7 @@ def events_in(catalogue):
 
 
 class Fault:
-    catalogue = "fault.catalogue.csv"
+    catalogue, on_ranks = "fault.catalogue.csv", True
     OWN = {"prefix", "restart", "overwrite", "checkpoint"}
 
     @staticmethod
@@ -120,8 +121,49 @@ class Fault:
         return int(told["step"]) - int(told["settle"])
 
 
+class Rupture:
+    """A scene of a rupture, rupture_*.in; its slip history is rupture.slip.bin."""
+    catalogue, on_ranks, OWN = "rupture.ruptures.csv", True, Fault.OWN
+    scene = None  # of each subclass
+
+    @classmethod
+    def known(cls, _):
+        """Variables of style index of the scene, of one that it includes by name, and of parts of scenes, which say so at the top."""
+        texts, found = [(INPUTS / f"{cls.scene}.in").read_text()], set(cls.OWN)
+        for text in texts:
+            found |= set(re.findall(r"^variable\s+(\w+)\s+index\b", text, re.M))
+            for word in re.findall(r"^include_beside\s+(\S+)", text, re.M):
+                others = [path.read_text() for path in INPUTS.glob(re.sub(r"\$\{\w+\}", "*", word))]
+                texts += [one for one in others if len(others) == 1 or one.startswith("# Part of ")]
+        return found
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder = folder
+        pairs = ["prefix=rupture", "overwrite=yes", *settings]
+        self.words = [
+            "mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/{self.scene}.in", "-log", "rupture.log"
+        ]
+        self.words += [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+
+    def command(self):
+        for name in ("cpu.txt", "rupture.log"):  # it starts over
+            (self.folder / name).unlink(missing_ok=True)
+        return self.words
+
+    def stop(self, child):
+        child.terminate()
+
+    def steps(self):
+        log = self.folder / "rupture.log"
+        said = log.read_text() if log.exists() else ""
+        return int(re.findall(r"^Loop time of .* for (\d+) steps", said, re.M)[-1]) if "\nTotal wall time:" in said else None
+
+
+RUPTURES = {path.stem: type(path.stem, (Rupture,), {"scene": path.stem}) for path in sorted(INPUTS.glob("rupture_tpv*.in"))}
+
+
 class Slider:
-    catalogue = "catalogue.csv"
+    catalogue, on_ranks = "catalogue.csv", False
     OWN = {"catalogue", "checkpoint", "json", "progress", "resume", "overwrite", "ensemble", "threads", "config", "help", "version"}
 
     @staticmethod
@@ -157,7 +199,7 @@ class Slider:
 
 class Esys:
     """A fault computed by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
-    catalogue, OWN, known = "fault.catalogue.csv", Fault.OWN, Fault.known
+    catalogue, on_ranks, OWN, known = "fault.catalogue.csv", False, Fault.OWN, Fault.known
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.settings, self.binaries = folder, settings, binaries
@@ -178,7 +220,7 @@ class Esys:
 
 class Published:
     """An existing catalogue, `file`. The run is a link to it; other settings only serve to describe it."""
-    catalogue, OWN, known = "catalogue.csv", set(), None
+    catalogue, on_ranks, OWN, known = "catalogue.csv", False, set(), None
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.file = folder, Path(dict(pair.split("=", 1) for pair in settings).get("file", ""))
@@ -195,7 +237,7 @@ class Published:
         return 0 if (self.folder / self.catalogue).is_file() else None
 
 
-PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Published}
+PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Published, **RUPTURES}
 
 
 def begun_otherwise(folder, settings):

@@ -2,25 +2,30 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Ruptures of a plane, as slip histories of compute lsm/events, compared with curves at places of the fault †.
 
-rupture_3d.py HISTORY... --reference FILE [--until TIME] [--label NAME]... -o BASE
-rupture_3d.py -o BASE    (only the picture, from BASE.csv)
+rupture_3d.py HISTORY... --reference FILE [--until TIME] [--label NAME]... -o BASE | --json FILE
+rupture_3d.py -o BASE    (from BASE-stations.csv and BASE.csv alone)
 
 The reference is a table x,z,t,slip,slip_rate,slip_dip of one curve for each place; the parameter `scale` of the header of a history
-divides its slip. Prints the misfits over all places and the orders of convergence; writes BASE-stations.csv, BASE.csv (curves at
-the places shown, and when the rupture arrived in the last history) and their pictures, BASE.png and BASE.svg (--no-picture: none).
+divides its slip. A run has the name of its history, or of its folder if that is rupture.slip.bin, or its label; runs whose names
+differ in numbers only are a series. Writes BASE-stations.csv, BASE.csv (curves of the first series at the places shown, and when the
+rupture arrived in its last history); from these it prints and writes BASE-convergence.csv, misfits over all places and the orders of
+convergence in a series, and the pictures BASE.png and BASE.svg (--no-picture: none). --json FILE: misfits only, for a study.
 """
 import argparse
 import csv
 import math
+import re
 from pathlib import Path
 
 import numpy as np
-from catalogues import draw, lsm, numbers_in, run, write_table
-from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, report, same_place, summary, tick  # noqa: F401
+from catalogues import draw, lsm, numbers_in, run, write_json, write_table
+from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, same_place, summary, tick
 
 COLUMNS = ["x", "z", "t", "slip", "slip_rate", "slip_dip"]
 SHOWN = [(0, -7500), (4500, -7500), (-12000, -7500), (4500, 0), (12000, 0)]  # those of TPV5 that differ most from each other
 MOST_POINTS = 3000  # of the map
+LOW = 1.0  # frequency at which the low pass of slip rates halves the power, in the unit of the references
+ORDERS = ("arrival", "slip", "slip_l2", "rate_l2", "rate_low_l2")
 
 
 def reference_of(path):
@@ -78,6 +83,33 @@ class Plane:
         return found
 
 
+def low_pass(values, step, frequency=LOW):
+    """Values at times with this step, after a low pass without delay, a Gaussian window."""
+    width = math.sqrt(math.log(2)) / (2 * math.pi * frequency)
+    half = math.ceil(4 * width / step)
+    window = np.exp(-0.5 * (np.arange(-half, half + 1) * step / width)**2)
+    return np.convolve(np.pad(values, half, mode="edge"), window / window.sum(), mode="valid")
+
+
+def rate_misfit(curve, reference, end):
+    """What of the misfit of slip rates (relative L2) is below the frequency LOW, and what is left of that where both arrive at the same
+    time; and the frequencies below which a half of the squared misfit is then, without low pass."""
+    late = arrival(curve) - arrival(reference)
+    late = late if math.isfinite(late) else 0.0
+    step = min(0.02, np.diff(reference[0]).min())
+    times = np.arange(max(curve[0][0], curve[0][0] - late, reference[0][0]), min(end, end - late), step)
+    wanted = np.interp(times, reference[0], reference[2])
+    found, shifted = (np.interp(times + by, curve[0], curve[2]) for by in (0.0, late))
+
+    def l2(off, of):
+        return math.sqrt(np.sum(off**2) / total) if (total := np.sum(of**2)) > 0 else math.inf
+
+    smooth = low_pass(wanted, step)
+    power = np.cumsum(np.abs(np.fft.rfft(shifted - wanted))**2)
+    return dict(rate_low_l2=l2(low_pass(found, step) - smooth, smooth), rate_low_aligned_l2=l2(low_pass(shifted, step) - smooth, smooth),
+                misfit_frequency=np.searchsorted(power, 0.5 * power[-1]) / (len(times) * step))
+
+
 def stations_of(planes, reference, until):
     """A row for each run and place. planes: {name: Plane}. \\raises ValueError"""
     rows = []
@@ -87,7 +119,30 @@ def stations_of(planes, reference, until):
             end = min(until, plane.time[-1], one[0][-1])
             rows.append(
                 dict(run=name, spacing=plane.spacing, reference="boundary integral", x=x, z=z) | misfit(curve, one[:3], until)
+                | rate_misfit(curve, one[:3], end)
                 | dict(end_dip=np.interp(end, plane.time, dip), reference_end_dip=np.interp(end, one[0], one[3])))
+    return rows
+
+
+def series_of(name):
+    return re.sub(r"[\d.]+", "0", name, count=1)
+
+
+def convergence_of(stations):
+    """A row for each run: misfits over the places, and orders of convergence from the run before it in its series."""
+    groups, rows, before = {}, [], {}
+    for row in stations:
+        groups.setdefault(row["run"], []).append(row)
+    for name, of_run in groups.items():
+        late = np.array([row["arrival"] - row["reference_arrival"] for row in of_run])
+        row = dict(run=name, spacing=of_run[0]["spacing"]) | summary(of_run) | dict(mean=late.mean(), scatter=late.std())
+        row |= {key: math.sqrt(np.mean([one[key]**2 for one in of_run])) for key in ("rate_low_l2", "rate_low_aligned_l2")}
+        row["misfit_frequency"] = np.median([one["misfit_frequency"] for one in of_run])
+        last = before.get(series_of(name))
+        for key in ORDERS:
+            row[f"order_{key}"] = math.log(last[key] / row[key]) / math.log(last["spacing"] / row["spacing"]) if last else math.nan
+        before[series_of(name)] = row
+        rows.append(row)
     return rows
 
 
@@ -97,6 +152,7 @@ def rounded(value):
 
 def write_curves(planes, reference, until, path):
     """Curves at the places shown, and when the rupture arrived in the last history, in a table from which the picture is drawn."""
+    planes = {name: plane for name, plane in planes.items() if series_of(name) == series_of(next(iter(planes)))}
     shown = [place for place in SHOWN if place in reference] or list(reference)[:5]
     last = list(planes.values())[-1]
     curves = [("boundary integral", {place: reference[place][:3] for place in shown})]
@@ -115,6 +171,30 @@ def write_curves(planes, reference, until, path):
     comments = ["number n > 0: curve n at x, z; 0: when the rupture arrived, in the last curve's run, at squares of this side: "
                 f"{stride * last.spacing:g}"]  # yapf: disable
     write_table(path, comments + [f"curve {n}: {name}" for n, (name, _) in enumerate(curves, 1)], rows)
+
+
+def stations_in(path):
+    """The rows of BASE-stations.csv. \raises ValueError"""
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    try:
+        if not rows or "misfit_frequency" not in rows[0]:
+            raise ValueError
+        return [{key: value if key in ("run", "reference") else float(value or "nan") for key, value in row.items()} for row in rows]
+    except ValueError:
+        raise ValueError(f"{path}: expected a table of this script, with numbers") from None
+
+
+def conclude(base, no_picture):
+    """Prints and writes what follows from BASE-stations.csv, and draws BASE.csv. \raises ValueError"""
+    rows = convergence_of(stations_in(f"{base}-stations.csv"))
+    write_table(f"{base}-convergence.csv", [], rows)
+    for row in rows:
+        print(f"{row['run']}, spacing {row['spacing']:g}: arrival {row['arrival']:.3g}, mean {row['mean']:.3g}, at most {row['arrival_max']:.3g}; "
+              f"slip {100 * row['slip']:.3g} %, at most {100 * row['slip_max']:.3g} %; slip rate {100 * row['rate_l2']:.3g} %, "
+              f"below {LOW:g} Hz {100 * row['rate_low_l2']:.3g} %")
+    if not no_picture:
+        picture(base)
 
 
 def picture(base):
@@ -158,23 +238,31 @@ plot table using ($1 == 0 ? $2 / 1000 : NaN):(-$3 / 1000):({half:g}):({half:g}):
     draw(base, script + "unset multiplot", 1000, height)
 
 
-def main(histories, reference, until, label, output, no_picture):
+def name_of(path):
+    name = Path(path).name.removesuffix(".slip.bin")
+    return (Path(path).absolute().parent.name if name == "rupture" else name).replace("_", " ")
+
+
+def main(histories, reference, until, label, output, json_file, no_picture):
+    if not (output or json_file and histories):
+        raise ValueError("no -o, expected one, or --json with histories")
     if not histories:
-        picture(output)
+        conclude(output, no_picture)
         return
     if not reference:
         raise ValueError("no --reference, expected one with histories")
-    names = label or [Path(path).name.removesuffix(".slip.bin") for path in histories]
+    names = label or [name_of(path) for path in histories]
     if len(names) != len(histories) or len(set(names)) != len(names):
         raise ValueError(f"{len(set(names))} labels of {len(histories)} histories, expected one of each")
     known = reference_of(reference)
     planes = dict(sorted(zip(names, map(Plane, histories)), key=lambda one: -one[1].spacing))
     stations = stations_of(planes, known, until)
-    write_table(f"{output}-stations.csv", [], stations)
-    report(stations)
-    write_curves(planes, known, until, f"{output}.csv")
-    if not no_picture:
-        picture(output)
+    if json_file:
+        write_json(json_file, stations=stations, convergence=convergence_of(stations))
+    if output:
+        write_table(f"{output}-stations.csv", [], stations)
+        write_curves(planes, known, until, f"{output}.csv")
+        conclude(output, no_picture)
 
 
 if __name__ == "__main__":
@@ -183,6 +271,7 @@ if __name__ == "__main__":
     parser.add_argument("--reference", metavar="FILE")
     parser.add_argument("--until", metavar="TIME", type=float, default=math.inf)
     parser.add_argument("--label", metavar="NAME", action="append")
-    parser.add_argument("-o", "--output", metavar="BASE", required=True)
+    parser.add_argument("-o", "--output", metavar="BASE")
+    parser.add_argument("--json", metavar="FILE", dest="json_file")
     parser.add_argument("--no-picture", action="store_true")
     run(main, parser)

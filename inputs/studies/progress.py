@@ -15,9 +15,10 @@ class RunProgress:
         time = float(run.settings.get("time") or 0)
         self.steps = float(run.settings.get("steps") or time / float(run.settings.get("dt") or 0.05) or 1.2e6)
         # Estimated core seconds: 65 discs per unit of length, 44 million steps of a disc per second; for a chain likewise.
-        # ESyS-Particle takes 30 times as long.
+        # ESyS-Particle takes 30 times as long. A rupture of a plane: its spacing is space and time.
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))
-        self.cost = self.steps * {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6, "catalogue": 1e-9}[run.program]
+        of_step = {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6, "catalogue": 1e-9}
+        self.cost = self.steps * of_step[run.program] if run.program in of_step else 250 * (200 / float(run.settings.get("dx") or 200))**4
 
     def count_events(self):
         path = Path(self.run.catalogue)

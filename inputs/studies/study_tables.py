@@ -99,8 +99,9 @@ class Run:
     def __init__(self, name, row, config):
         self.name, self.row, self.program = name, row, row["program"]
         self.settings = settings_of(row, config)
-        given = row.get("ranks") or (config.get("ranks") if self.program == "fault" else "")
-        if row.get("ranks") and self.program != "fault":
+        on_ranks = PROGRAMS[self.program].on_ranks
+        given = row.get("ranks") or (config.get("ranks") if on_ranks else "")
+        if row.get("ranks") and not on_ranks:
             raise TableError(f"ranks '{given}' of program '{self.program}', expected them for faults only")
         if given and not re.fullmatch(r"[1-9]\d*", str(given)):
             raise TableError(f"ranks '{given}', expected a whole number above 0")

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""rupture_3d.py: slip of a plane at places by hand, what is refused, and the numbers of the page."""
+"""rupture_3d.py: slip of a plane at places by hand, orders of convergence, what is refused, and the numbers of the page."""
 import csv
+import json
+import math
+import re
 import sys
 
 import numpy as np
@@ -47,7 +50,7 @@ def test_the_same_rupture(work):
     front("a.slip.bin")
     reference(work / "same.csv")
     out = run(SCRIPT, "a.slip.bin --reference same.csv -o out --no-picture").out
-    assert "spacing 2, against boundary integral" in out
+    assert "a, spacing 2: arrival" in out
     table = stations()
     assert [float(row["end_slip"]) for row in table] == pytest.approx([6, 6, 6], rel=1e-6)
     assert [float(row["end_dip"]) for row in table] == pytest.approx([1, 1, 1], rel=1e-6)
@@ -66,6 +69,55 @@ def test_misfits_by_hand(work):
         assert float(row["end_slip"]) / float(row["reference_end_slip"]) == pytest.approx(0.8, rel=1e-4)
 
 
+def test_low_pass():
+    """Half of the power is left at its frequency, hardly any of waves of a lattice, and all of what changes slowly; there is no delay."""
+    times = np.arange(0, 20, 0.01)
+    inner = slice(200, -200)
+    for frequency, gain in ((1.0, math.sqrt(0.5)), (0.1, 0.5**0.005), (4.0, 0.5**8)):
+        wave = np.sin(2 * math.pi * frequency * times)
+        assert rupture_3d.low_pass(wave, 0.01)[inner] == pytest.approx(gain * wave[inner], abs=2e-3)
+
+
+def test_parts_of_the_misfit_of_slip_rates():
+    """An oscillation, and a delay, each by itself: the low pass takes the first away, the same arrival the second."""
+    times = np.arange(0, 12, 0.02)
+    rate = np.where(times > 3, 4 * np.exp(-(times - 3.5)**2 / 2), 0.0)
+    one = np.array([times, 0 * times, rate])
+    ringing = np.array([times, 0 * times, rate + 3 * np.exp(-(times - 6)**2 / 2) * np.sin(2 * math.pi * 5 * times)])
+    late = np.array([times + 0.3, 0 * times, rate])
+    found = rupture_3d.rate_misfit(ringing, one, 12.0)
+    assert rupture_3d.misfit(ringing, one, 12.0)["rate_l2"] > 0.5 and found["rate_low_l2"] < 0.02
+    assert found["misfit_frequency"] == pytest.approx(5.0, abs=0.1)
+    found = rupture_3d.rate_misfit(late, one, 12.0)
+    assert found["rate_low_l2"] > 0.25 and found["rate_low_aligned_l2"] < 0.01
+
+
+def test_orders_of_convergence():
+    """Arrivals of second order, slip of first, in a series of three runs; a run of another kind between them does not count."""
+    rows = []
+    for name, spacing, factor in (("400 m", 400.0, 1.0), ("200 m", 200.0, 1.0), ("200 m kt 1.5", 200.0, 7.0), ("100 m", 100.0, 1.0)):
+        off = factor * spacing / 400
+        rows += [
+            dict(run=name, spacing=spacing, reference="r", arrival=2 + sign * off**2, reference_arrival=2.0, end_slip=3 + off, reference_end_slip=3.0,
+                 slip_l2=off, peak_rate=1.0, reference_peak_rate=1.0, rate_l2=off**3, rate_low_l2=off, rate_low_aligned_l2=off,
+                 misfit_frequency=spacing) for sign in (1, -1)
+        ]
+    table = {row["run"]: row for row in rupture_3d.convergence_of(rows)}
+    for name in ("200 m", "100 m"):
+        assert [table[name][f"order_{key}"] for key in ("arrival", "slip", "rate_l2")] == pytest.approx([2, 1, 3])
+    assert all(math.isnan(table[name]["order_arrival"]) for name in ("400 m", "200 m kt 1.5"))
+    assert table["100 m"]["mean"] == pytest.approx(0) and table["100 m"]["scatter"] == pytest.approx(1 / 16)
+
+
+def test_numbers_for_a_study(work):
+    front("rupture.slip.bin")
+    reference(work / "same.csv")
+    run(SCRIPT, "rupture.slip.bin --reference same.csv --json out.json")
+    found = json.loads((work / "out.json").read_text())
+    assert len(found["stations"]) == 3 and found["convergence"][0]["run"] == work.name.replace("_", " ")
+    assert not list(work.glob("*.csv")) == [] and not (work / "out.csv").exists()
+
+
 def test_what_is_wrong_is_named(work):
     front("a.slip.bin")
     write_history("line.slip.bin", [0, 1], np.zeros((2, 4)))
@@ -78,15 +130,35 @@ def test_what_is_wrong_is_named(work):
         refused(SCRIPT, "a.slip.bin --reference b.csv -o out --no-picture", said)
 
 
-def test_the_table_of_the_page():
-    """The published stations give the numbers of rupture-3d.md."""
-    table = stations(RESULTS / "rupture_3d-stations.csv")
-    page = (RESULTS / "rupture-3d.md").read_text()
-    for run, arrival, slip in (("500 m", "0.645", "1.1; 2.1"), ("300 m", "0.153", "1.5; 2.1"), ("200 m", "0.073", "1.8; 2.5"),
-                               ("150 m", "0.075", None), ("200 m kt 3", "0.036", "1.5; 2.2"), ("150 m kt 3", "0.013", "0.6; 1.2")):
-        some = [{key: value if key in ("run", "reference") else float(value) for key, value in row.items()} for row in table if row["run"] == run]
-        assert len(some) == 10
-        s = rupture_3d.summary(some)
-        assert f"{s['arrival']:.3f}" == arrival and f" {arrival}" in page
-        if slip:
-            assert f"{100 * s['slip']:.1f}; {100 * s['slip_max']:.1f}" == slip and f" {slip} " in page
+def test_the_table_of_the_page(work):
+    """The published stations give the published orders, and these the numbers of rupture-3d.md."""
+    for name in ("rupture_3d-stations.csv", "rupture_3d.csv"):
+        (work / name).write_bytes((RESULTS / name).read_bytes())
+    run(SCRIPT, "-o rupture_3d --no-picture")
+    assert (work / "rupture_3d-convergence.csv").read_bytes() == (RESULTS / "rupture_3d-convergence.csv").read_bytes()
+    runs = {row["run"]: row for row in stations("rupture_3d-convergence.csv")}
+    table = [line.split("|")[1:-1] for line in (RESULTS / "rupture-3d.md").read_text().splitlines() if line.startswith("|")]
+    names = [cell.strip() for cell in table[0][1:]]
+    assert names == ["400 m", "300 m", "200 m", "150 m"]
+    cells = {row[0].split(",")[0].strip(): [cell.strip() for cell in row[1:]] for row in table[2:2 + 7]}
+    for column, name in enumerate(names):
+        one = {key: value if key == "run" else float(value or "nan") for key, value in runs[name].items()}
+
+        def order(key):
+            return "" if math.isnan(one[f"order_{key}"]) else f" ({one[f'order_{key}']:.1f})"
+
+        expected = {
+            "arrival": f"{one['arrival']:.3f}{order('arrival')}", "mean; scatter between stations (s)": f"{one['mean']:.3f}; {one['scatter']:.3f}",
+            "largest difference of an arrival (s)": f"{one['arrival_max']:.2f}",
+            "slip at 12 s": f"{100 * one['slip']:.1f}; {100 * one['slip_max']:.1f}",
+            "slip over time": f"{100 * one['slip_l2']:.1f}{order('slip_l2')}", "slip rate": f"{100 * one['rate_l2']:.0f}{order('rate_l2')}",
+            "below 1 Hz": f"{100 * one['rate_low_l2']:.0f}{order('rate_low_l2')}"
+        }
+        assert {key: row[column] for key, row in cells.items()} == expected
+    page = re.sub(r"\s+", " ", (RESULTS / "rupture-3d.md").read_text())
+    with open(RESULTS / "rupture_3d-peers.csv", newline="") as file:
+        peers = [row.split("|")[2:4] for row in (RESULTS / "rupture-3d.md").read_text().split("| over ours |")[1].splitlines()[2:7]]
+        assert [[float(cell) for cell in row] for row in peers] == [[round(float(row["ns"])),
+                                                                     float(f"{float(row['over_ours']):.2g}")] for row in csv.DictReader(file)]
+    soft = runs["200 m kt 1.5"]
+    assert f"{float(soft['arrival']):.3f} s (mean {float(soft['mean']):.3f})" in page

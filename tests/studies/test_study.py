@@ -156,6 +156,47 @@ def test_scripts_of_results_give_numbers(study):
     assert int(table()["c_1"]["same"]) == int(table()["c_1"]["of"]) > 0
 
 
+RUPTURE = "run,program,dx,ranks,settings\n{dx}_m,rupture_tpv5,2000 1500,1,length=36000 width=12000 depth=18000 tend=2 surface=mirror\n"
+
+
+def test_ruptures_of_a_plane(study):
+    """The study ruptures with coarse lattices: numbers beside the reference, and a table of all stations."""
+    write(RUPTURE, (INPUTS / "studies/ruptures.yaml").read_text())
+    run(study, "my.csv")
+    rows = table()
+    assert list(rows) == ["2000_m", "1500_m"] and all(row["ruptures"] == counted(f"{name}/rupture.ruptures.csv") for name, row in rows.items())
+    with open("out/stations.csv") as lines:
+        stations = list(csv.DictReader(lines))
+    assert len(stations) == 20 and {row["dx"] for row in stations} == {"2000", "1500"}
+    of_one = [row for row in stations if row["run"] == "1500_m"]
+    off = sum((float(row["end_slip"]) - float(row["reference_end_slip"]))**2 for row in of_one)
+    assert float(rows["1500_m"]["slip"]) == pytest.approx((off / sum(float(row["reference_end_slip"])**2 for row in of_one))**0.5, rel=1e-4)
+    done = json.loads(Path("out/1500_m/done.json").read_text())
+    assert done["steps"] > 10 and done["ranks"] == 1
+    # Nothing is done again, and other settings are refused.
+    assert "Nothing to be done" in run(study, "my.csv -n").out
+    write(RUPTURE.replace("tend=2", "tend=3"), (INPUTS / "studies/ruptures.yaml").read_text())
+    refused(study, "my.csv", r"out/2000_m was begun with other settings \(tend=2\), expected tend=3", but=NOTES)
+
+
+def test_a_rupture_that_is_stopped_starts_over(study, binaries):
+    folder, words = Path("out/one").absolute(), ["dx=1000", "tend=12"]
+    program = Program("run.py", INPUTS / "run.py")
+    with start(program, [folder, "rupture_tpv5", 1, 1, binaries, *words]) as child:
+        assert child.until(lambda: (folder / "rupture.slip.bin").exists())
+        child.send_signal(signal.SIGTERM)
+        assert child.wait(60) == 75
+    assert not (folder / "done.json").exists()
+
+
+@pytest.mark.parametrize("columns, said", [(("dx", "1500", "blocks=packing"), "'blocks', which program rupture_tpv5 does not have"),
+                                           (("dx", "1500", "prefix=a"), "'prefix' is set by the study, expected no such column or setting")])
+def test_variables_that_a_rupture_does_not_have(plan, columns, said):
+    with pytest.raises(TableError, match=said):
+        plan(f"run,program,{columns[0]},settings\na,rupture_tpv5,{columns[1]},{columns[2]}\n")
+    plan("run,program,dx,settings\na,rupture_tpv3,1500,blocks=packing seed=2\n")
+
+
 def test_a_catalogue_that_is_replaced_is_read_again(study, work):
     write(CHAIN)
     run(study, "my.csv")
