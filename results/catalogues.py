@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "inputs/studies")]
 import lsm  # noqa: E402
 from calibrate import LOADING  # noqa: E402, F401
+from lsm.drawing import draw  # noqa: E402, F401
 from text_tables import rows_of  # noqa: E402
 
 CALIFORNIA = ROOT / "inputs/seismicity/southern-california.csv.xz"
@@ -112,27 +113,6 @@ def write_json(path, **tables):
     """Writes tables, lists of rows, as those of postproc: null where there is no number. path: None is standard output"""
     text = json.dumps({name: [plain(row) for row in rows] for name, rows in tables.items()}, indent=1) + "\n"
     Path(path).write_text(text) if path else print(text, end="")
-
-
-STYLE = """set datafile separator comma
-set encoding utf8
-colours = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #7A6A00 #000000" # of Okabe and Ito
-points = "7 5 9 13 4 6 8 12"
-do for [n = 1:8] { set linetype n lc rgb word(colours, n) pt int(word(points, n)) dt 1 lw 1.6 ps 0.9*point }
-set border lw 1.0 lc rgb "#333333"
-set tics out nomirror
-set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
-"""
-
-
-def draw(base, script, width, height):
-    """Draws BASE.png and BASE.svg with a script for gnuplot, in which `table` is BASE.csv. \\raises ValueError"""
-    for ending, head in (("png", f"point = 1.0; set terminal pngcairo size {2 * width},{2 * height} font 'DejaVu Sans,26' linewidth 2 pointscale 2"),
-                         ("svg", f"point = 0.65; set terminal svg size {width},{height} dynamic font 'DejaVu Sans,13'")):
-        text = f"{head} enhanced background '#ffffff'\n{STYLE}table = '{base}.csv'\nset output '{base}.{ending}'\n{script}\nunset output\n"
-        done = subprocess.run(["gnuplot", "-d"], input=text, capture_output=True, text=True)
-        if done.returncode:
-            raise ValueError(f"gnuplot: {done.stderr.strip().splitlines()[-1]}")
 
 
 def run(main, parser):

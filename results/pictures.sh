@@ -22,8 +22,8 @@ sliders=(catalogues/slider_ours_{256,614,972,1450,1928}_seed_1.catalogue.csv.xz)
 for part; do
   case $part in
     report)
-      "$postproc" report "${faults[@]}" "${sliders[@]}" --from "$loading" -o "$new/report.html" \
-        --title "Faults with the calibrated values, block-sliders in the default settings"
+      python3 ../inputs/studies/report.py --postproc "$postproc" "${faults[@]}" "${sliders[@]}" --from "$loading" \
+        -o "$new/report.html" --title "Faults with the calibrated values, block-sliders in the default settings"
       cp "$new/report.html" .
       ;;
     catalogues)
@@ -32,7 +32,7 @@ for part; do
         length=${file#*fault_}
         ruptures+=("${file/catalogue/ruptures}") labels+=(--label "fault ${length%%_*}")
       done
-      "$postproc" rupture "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
+      PYTHONPATH=$root/python python3 -m lsm.ruptures "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
       for name in lengths moments length pe; do cp "$new/rupture-$name.png" rupture_$name.png; done
       "$postproc" intervals "${sliders[@]}" -o "$new/fig15_slider_intervals"
       "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
@@ -72,8 +72,8 @@ for part; do
       "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --threshold 1e-4 --label "mus 0.6" --label "mus 0.8" -o compare
       chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2760 --virtual-time-budget=20000 \
         --screenshot=page.png "file://$new/first.html" >out 2>&1
-      "$postproc" rupture first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) \
-        --p-speed 2.08 --s-speed 1.06 -o rupture
+      PYTHONPATH=$root/python python3 -m lsm.ruptures first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) \
+        --to $((${time%.*} + 3000)) --p-speed 2.08 --s-speed 1.06 -o rupture
       look=$((begin + (end - begin) / 3))
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var extra fault_image -var prefix look -var steps "$steps" \
         -var from "$look" -var to "$look" -var every 1000 </dev/null >out

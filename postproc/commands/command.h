@@ -70,15 +70,10 @@ class CatalogueAnalysis : public Analysis {
 
 /// A statistic of catalogues.
 class Statistic : public CatalogueAnalysis {
- public:
-  /// Computes the results from catalogues. The report calls this, too.
+ protected:
+  /// Computes the results from catalogues.
   /// \throws std::exception
   virtual Results of(const std::vector<EventTable> &tables) = 0;
-  /// Heading of the section that the report has for each model, where options have their default
-  /// values; nullptr: no section.
-  virtual const char *heading() const { return nullptr; }
-
- protected:
   /// Adds catalogues, --json, --output (with a default) and --no-picture.
   void add_usual(CLI::App *command, const std::string &base);
   Results find() override { return of(load_catalogues(catalogues)); }

@@ -87,7 +87,15 @@ class Explore : public Command {
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
     for (RunFiles *files : {&series_, &ruptures_, &histories_}) files->add_to(command);
-    add_wave_speeds(OptionGroup(command, "Slip"), page_.p_speed, page_.s_speed);
+    OptionGroup slip(command, "Slip");
+    slip.add("--p-speed", page_.p_speed,
+             "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1, the regular lattice; 2.0 to 2.1 "
+             "in packings of create_lsm_fault)",
+             positive());
+    slip.add("--s-speed", page_.s_speed,
+             "Speed of S-waves † (that of P-waves over the root of 3, as in the regular "
+             "lattice; 1.0 to 1.1 in packings)",
+             positive());
   }
 
   /// Loads the runs with their drops of PE, and with the ruptures where a run has a catalogue of

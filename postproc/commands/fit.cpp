@@ -15,7 +15,6 @@ namespace {
 class Fit : public Statistic {
   SizeFitSettings settings_;
   std::vector<std::string> ranges_;
-  std::string block_ = "auto";
   bool scaling_ = false, no_comparison_ = false, roll_off_ = false;
   Resampling bootstrap_;
 
@@ -53,7 +52,17 @@ class Fit : public Statistic {
                "dependence, or growth that ends at a length †");
     group.add("--bootstrap", bootstrap_.replicas,
               "Resampled catalogues for the errors of --scaling", between(2, 1000000));
-    add_block(group, block_);
+    group.call<std::string>(
+        "--block",
+        [this](const std::string &text) {
+          if (text != "auto" && !(text::parse(text, bootstrap_.block) && bootstrap_.block >= 0.0))
+            throw std::invalid_argument("--block " + text::in_quotes(text) +
+                                        ", expected 'auto' or a time of 0 or more");
+        },
+        "Length of the blocks of time that are resampled for these errors, since events cluster "
+        "(model time): auto, from the correlation of each catalogue (Politis and White 2004); or "
+        "0, single events as if independent",
+        shown("auto"));
   }
 
   std::vector<std::string> endings() const override {
@@ -111,7 +120,6 @@ class Fit : public Statistic {
     std::vector<Scaling> scalings;
     if (scaling_) {
       bootstrap_.seed = settings_.seed;
-      bootstrap_.block = parse_block(block_);
       scalings = scale_sizes(tables, settings_.threshold, bootstrap_);
       if (scalings.empty())
         throw DegenerateData("--scaling: no catalogue gives its length or number of blocks");

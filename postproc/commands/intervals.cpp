@@ -27,11 +27,6 @@ class Intervals : public Statistic {
     add_usual(command, "intervals");
     OptionGroup group(command, "Inter-event times");
     add_thresholds(group, settings_.thresholds, "the events");
-    group.add("--places", settings_.places,
-              "Times between ruptures that reach the same place, for this number of places along "
-              "the fault, pooled † (catalogues of ruptures of faults); 0: between any two "
-              "events",
-              zero_or_more());
     group.flag("--rescale", settings_.rescale,
                "Divide the times of each curve by their mean (as Corral 2004 does)");
     group.add("--bin-factor", settings_.factor,
@@ -70,11 +65,6 @@ class Intervals : public Statistic {
     std::vector<std::string> files = picture_files({".rate", ".conditional", ".cuts"});
     files.insert(files.end(), {".table1.csv", ".clustering.csv"});
     return files;
-  }
-
-  Results find() override {
-    if (settings_.places > 0) catalogues.details = CatalogueOptions::all_events;
-    return Statistic::find();
   }
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
@@ -118,11 +108,6 @@ class Intervals : public Statistic {
       else if (curve.zeros > 0)
         results.warn(fmt::format("{}, {}: {} of {} times are 0, left out of densities and fits",
                                  curve.sample.label, curve.sample.from(), curve.zeros, curve.n));
-    if (settings_.places > 0)
-      results.say(fmt::format(
-          "times at {} places each; places closer than the length of ruptures share ruptures, "
-          "and then errors and p are too small\n",
-          settings_.places));
     results.table("", table1(rows, settings_.rescale), ".table1");
     results.table("times", times_of(curves));
     results.numbers("fits", table1(rows, settings_.rescale, false).json());

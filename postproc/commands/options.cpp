@@ -43,32 +43,6 @@ Rule size_or_magnitude() {
   });
 }
 
-void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed) {
-  group.add("--p-speed", p_speed,
-            "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1, the regular lattice; 2.0 to 2.1 "
-            "in packings of create_lsm_fault)",
-            positive());
-  group.add("--s-speed", s_speed,
-            "Speed of S-waves † (that of P-waves over the root of 3, as in the regular "
-            "lattice; 1.0 to 1.1 in packings)",
-            positive());
-}
-
-void add_block(OptionGroup group, std::string &text) {
-  group.add("--block", text,
-            "Length of the blocks of time that are resampled for these errors, since events "
-            "cluster (model time): auto, from the correlation of each catalogue (Politis and "
-            "White 2004); or 0, single events as if independent");
-}
-
-double parse_block(const std::string &text) {
-  double block = std::numeric_limits<double>::quiet_NaN();
-  if (text != "auto" && !(text::parse(text, block) && block >= 0.0))
-    throw std::invalid_argument("--block " + text::in_quotes(text) +
-                                ", expected 'auto' or a time of 0 or more");
-  return block;
-}
-
 Range parse_range(const std::string &option, std::string_view text) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Range range{-infinity, infinity};

@@ -23,16 +23,6 @@ namespace LSM::postproc {
 /// Rule for an option that takes a size, or a magnitude such as M2.5 for size 10^(1.5 x 2.5).
 Rule size_or_magnitude();
 
-/// Adds --p-speed and --s-speed.
-void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed);
-
-/// Adds --block, the length of the blocks of a bootstrap.
-/// \param text gets the value, for parse_block()
-void add_block(OptionGroup group, std::string &text);
-/// Resampling::block from "auto" (NaN) or a time of at least 0.
-/// \throws std::invalid_argument naming --block
-double parse_block(const std::string &text);
-
 /// Parses "LO:HI" with LO < HI, numbers or magnitudes such as M2.5. An end that is left out is
 /// -infinity or infinity.
 /// \throws std::invalid_argument naming the option
@@ -92,8 +82,6 @@ struct MagnitudeOptions {
   /// Magnitude scale of one catalogue.
   /// \throws std::runtime_error if the catalogue lacks the column or its model has no SI units
   MagnitudeScale scale(const std::string &path, const CatalogueInfo &info) const;
-  /// Makes magnitudes from sizes, whatever the units.
-  void take_size() { made_of_ = "size"; }
   double slope_used() const { return slope.value_or(MagnitudeScale().slope); }
 
  private:

@@ -30,7 +30,7 @@ void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
 
 }  // namespace
 
-Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width) {
+Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) {
   Table table("curve,model,threshold,bin_lo,bin_hi,theta,count,density,error,label");
   table.comment(
       rescaled
@@ -87,8 +87,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
            true, range.lo, range.hi) +
           axis("y",
                rescaled ? "probability density f(θ)" : "probability density f(θ) (1 / model time)",
-               true, 0.3 * heights.lo, heights.hi),
-      width);
+               true, 0.3 * heights.lo, heights.hi));
 }
 
 Table cuts_table(const std::vector<IntervalCurve> &curves) {
@@ -130,7 +129,7 @@ Table cuts_table(const std::vector<IntervalCurve> &curves) {
   return Table(std::move(table));
 }
 
-Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
+Figure cuts_figure(const std::vector<IntervalCurve> &curves) {
   Table table = cuts_table(curves);
   Curves plot("$4", "$4 > 0");
   Extent range, heights;
@@ -154,8 +153,7 @@ Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
   if (range.empty()) throw DegenerateData("no catalogue gives gamma for any cut, nothing to draw");
   return plot.figure(std::move(table),
                      axis("x", "shortest time used, over the mean", true, range.lo, range.hi) +
-                         axis("y", "γ (δ = 1, maximum likelihood)", false, heights.lo, heights.hi),
-                     width);
+                         axis("y", "γ (δ = 1, maximum likelihood)", false, heights.lo, heights.hi));
 }
 
 namespace {

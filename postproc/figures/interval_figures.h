@@ -23,9 +23,8 @@ std::string source_of(const IntervalCurve &curve);
 
 /// Probability densities with Poisson errors, and the fitted densities.
 /// \param rescaled whether the times are divided by their mean
-/// \param width of the picture, see PictureSize
 /// \throws DegenerateData if no curve has a point
-Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width = 900);
+Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled);
 
 /// gamma (with delta = 1) against the shortest time used in the fit, the cut; a row per cut and
 /// curve. The cut that all commands use is marked: the larger of 2.5 memories of the picker and
@@ -33,7 +32,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
 Table cuts_table(const std::vector<IntervalCurve> &curves);
 /// gamma with its errors against the cut over the mean time.
 /// \throws DegenerateData if no curve has a number
-Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width = 900);
+Figure cuts_figure(const std::vector<IntervalCurve> &curves);
 
 /// One of our rows of Table 1.
 struct Table1Row {

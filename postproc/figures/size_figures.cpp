@@ -31,7 +31,7 @@ PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, cons
 }  // namespace
 
 Figure size_density_figure(const std::vector<SizeDensity> &densities,
-                           const std::vector<PowerLine> &lines, int width) {
+                           const std::vector<PowerLine> &lines) {
   // Labels may contain commas. They come last so that `awk -F,` finds the numbers.
   Table table("curve,model,length,bin_lo,bin_hi,size,count,density,error,label");
   table.comment("units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
@@ -72,8 +72,7 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
   return curves.figure(
       std::move(table),
       axis("x", "event size s (energy, model units)", true, sizes.lo, sizes.hi) +
-          axis("y", "probability density p(s) (1 / energy)", true, 0.3 * heights.lo, top),
-      width);
+          axis("y", "probability density p(s) (1 / energy)", true, 0.3 * heights.lo, top));
 }
 
 PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density) {
@@ -117,7 +116,7 @@ void add_laws(Curves &curves, const ScalingFit &fit, std::int64_t number, const 
 
 }  // namespace
 
-Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
+Figure scaling_figure(const std::vector<Scaling> &scalings) {
   Curves curves("$3");
   Extent lengths, heights;
   std::int64_t number = 0;
@@ -146,8 +145,7 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
            : faults         ? "length of the fault"
                             : "number of blocks",
            true, 0.9 * lengths.lo, 1.1 * lengths.hi) +
-          axis("y", "characteristic size s* (energy)", true, heights.lo, heights.hi),
-      width);
+          axis("y", "characteristic size s* (energy)", true, heights.lo, heights.hi));
 }
 
 }  // namespace LSM::postproc

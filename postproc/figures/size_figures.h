@@ -32,7 +32,7 @@ struct PowerLine {
 
 /// Probability densities of the sizes. Catalogues without an event in the range have no curve.
 Figure size_density_figure(const std::vector<SizeDensity> &densities,
-                           const std::vector<PowerLine> &lines, int width = 900);
+                           const std::vector<PowerLine> &lines);
 
 /// Fitted exponents, a row for each rival of each fit.
 Table size_fit_table(const std::vector<SizeFit> &fits);
@@ -57,7 +57,7 @@ void to_json(nlohmann::json &out, const Scaling &scaling);
 /// Characteristic size s* against length with error bars, the fitted power law, the constant and,
 /// where it is preferred, the law of growth that saturates.
 /// \throws DegenerateData if no point can be drawn
-Figure scaling_figure(const std::vector<Scaling> &scalings, int width = 900);
+Figure scaling_figure(const std::vector<Scaling> &scalings);
 
 }  // namespace LSM::postproc
 

@@ -35,8 +35,9 @@ std::string file_beside(const std::string &catalogue, const std::string &ending)
   return {};
 }
 
-/// Describes a setting of the run that differs between two headers; "" if there is none.
-std::string other_run(const HeaderOf &one, const HeaderOf &other) {
+}  // namespace
+
+void check_same_run(const HeaderOf &one, const HeaderOf &other) {
   for (const auto &[key, value] : one.parameters) {
     const std::string *const there = files::find(other.parameters, key);
     double a = 0.0, b = 0.0;
@@ -44,30 +45,9 @@ std::string other_run(const HeaderOf &one, const HeaderOf &other) {
     if (!there || *there == value || (known && known->of == HeaderKey::Of::recording) ||
         (text::parse(value, a) && text::parse(*there, b) && a == b))
       continue;
-    return fmt::format("{}: {} = {}, but {} in {}", other.path, key, *there, value, one.path);
+    throw FileError(fmt::format("{}: {} = {}, but {} in {}: expected a file of the same run",
+                                other.path, key, *there, value, one.path));
   }
-  return {};
-}
-
-constexpr const char *expected_same = ": expected a file of the same run";
-
-}  // namespace
-
-void check_same_run(const HeaderOf &one, const HeaderOf &other) {
-  const std::string problem = other_run(one, other);
-  if (!problem.empty()) throw FileError(problem + expected_same);
-}
-
-void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &other) {
-  std::string first;
-  for (const EventTable &table : catalogues) {
-    const std::string problem = other_run(header_of(table), other);
-    if (problem.empty()) return;
-    if (first.empty()) first = problem;
-  }
-  if (catalogues.size() > 1)
-    first += fmt::format(", and none of {} catalogues is of its run", catalogues.size());
-  throw FileError(first + expected_same);
 }
 
 HeaderOf header_of(const EventTable &table) { return {table.path, table.info.header()}; }

@@ -23,10 +23,6 @@ struct HeaderOf {
 /// of what is recorded may differ.
 /// \throws FileError if another setting that is in both headers differs
 void check_same_run(const HeaderOf &one, const HeaderOf &other);
-/// Checks that a file is from the same run as any of the catalogues.
-/// \throws FileError otherwise
-void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &other);
-
 HeaderOf header_of(const EventTable &table);
 
 /// Option for files of one kind, one per catalogue. By default, files beside the catalogues are

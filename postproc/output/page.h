@@ -15,8 +15,8 @@
 
 namespace LSM::postproc {
 
-/// Returns a file that was compiled into the program: report.html, or a file of output/explore or
-/// of the library that it uses.
+/// Returns a file that was compiled into the program: of output/explore or of the library that it
+/// uses.
 /// \throws std::logic_error if there is no such file
 std::string_view page_file(std::string_view name);
 
@@ -24,25 +24,8 @@ std::string_view page_file(std::string_view name);
 std::string filled(std::string_view text,
                    const std::function<std::string(std::string_view)> &value);
 
-/// Returns a part of report.html with each {{key}} replaced by its value, without the last line
-/// break.
-/// \throws std::logic_error if there is no such part, a key has no value or a value no key
-std::string report_part(const std::string &name,
-                        const std::vector<std::pair<std::string_view, std::string>> &values = {});
-
 /// Recognizes the pages that a command of postproc wrote, by their `generator`.
 Known is_page_of(const std::string &command);
-
-/// Turns gnuplot's SVG into an element of a page: without prologue and with a transparent
-/// background.
-/// \param prefix of all identifiers, as those of several pictures would clash
-/// \param title name of the picture for screen readers
-/// \throws std::invalid_argument if the text is no SVG picture
-std::string inline_svg(std::string_view svg, const std::string &prefix, const std::string &title);
-
-/// Text in place of numbers that the data do not determine.
-/// \param why the reason, plain text
-std::string degenerate_html(const std::string &why);
 
 }  // namespace LSM::postproc
 

@@ -6,11 +6,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <sstream>
 #include <system_error>
 
@@ -77,14 +75,13 @@ std::string shell_word(std::string_view text) {
   return out + "'";
 }
 
-/// Runs gnuplot in a folder.
+/// Runs a script of gnuplot in its folder.
 /// \throws PlotError with gnuplot's own message
-void run_gnuplot(const fs::path &folder, const std::vector<std::string> &arguments) {
+void run_gnuplot(const fs::path &folder, const std::string &script) {
   // -d keeps the start-up file of the user from changing the pictures.
-  std::string command =
-      "{ cd " + shell_word((fs::path(".") / folder).string()) + " && exec gnuplot -d";
-  for (const std::string &argument : arguments) command += ' ' + shell_word(argument);
-  command += "; } 2>&1 >/dev/null </dev/null";
+  const std::string command = "{ cd " + shell_word((fs::path(".") / folder).string()) +
+                              " && exec gnuplot -d " + shell_word(script) +
+                              "; } 2>&1 >/dev/null </dev/null";
   std::FILE *const pipe = popen(command.c_str(), "re");
   if (!pipe) throw PlotError("cannot start gnuplot: " + std::generic_category().message(errno));
   std::string messages;
@@ -163,7 +160,7 @@ void draw(const std::string &base) {
   };
   leave_none();
   try {
-    run_gnuplot(folder, {"./" + name.string() + ".gp"});
+    run_gnuplot(folder, "./" + name.string() + ".gp");
     for (const std::string &picture : pictures)
       if (!is_whole(picture)) {
         constexpr std::uintmax_t little = 1 << 16;
@@ -221,30 +218,6 @@ void check_outputs(const Figure &figure, const PictureOptions &options) {
   const bool ours = files::holds_data(script);
   for (const char *const ending : {".png", ".svg"})
     if (!options.no_picture) check_output(base + ending, options.overwrite || ours);
-}
-
-std::string svg_text(const Figure &figure) {
-  std::error_code none;
-  const fs::path temporary = fs::temp_directory_path(none);
-  if (none) {
-    const char *const given = std::getenv("TMPDIR");
-    throw FileError(fmt::format("folder for temporary files, TMPDIR '{}': {}, expected a folder",
-                                given ? given : "", none.message()));
-  }
-  std::string folder = (temporary / "postproc-XXXXXX").string();
-  if (!mkdtemp(folder.data()))
-    throw FileError(folder + ": cannot make the folder: " + std::generic_category().message(errno));
-  const auto remove = [](const std::string *path) {
-    std::error_code code;
-    fs::remove_all(*path, code);
-  };
-  const std::unique_ptr<const std::string, decltype(remove)> cleaner(&folder, remove);
-  figure.table.write(folder + "/figure.csv");
-  write_file(folder + "/figure.gp", whole_script("figure", figure));
-  run_gnuplot(folder, {"-e", "formats='svg'", "figure.gp"});
-  std::string text = file_text(folder + "/figure.svg");
-  if (text.find("</svg>") == std::string::npos) throw PlotError("gnuplot wrote no picture");
-  return text;
 }
 
 }  // namespace LSM::postproc

@@ -84,10 +84,6 @@ void make(const Figure &figure, const PictureOptions &options);
 /// kind, unless options.overwrite
 void check_outputs(const Figure &figure, const PictureOptions &options);
 
-/// Returns the picture as SVG text. Its files are temporary.
-/// \throws FileError
-std::string svg_text(const Figure &figure);
-
 /// gnuplot commands that begin a panel of a multiplot with linear axes.
 /// \param left,right,bottom,top its edges as fractions of the picture
 std::string panel(double left, double right, double bottom, double top);

@@ -218,14 +218,13 @@ bool Table::for_people() const {
                      [](const Column &column) { return column.heading.has_value(); });
 }
 
-std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus_minus) const {
-  const bool chosen = for_people();
+std::vector<std::vector<std::string>> Table::shown_columns() const {
   std::vector<std::vector<std::string>> out;
   for (std::size_t place = 0; place < columns_.size(); ++place) {
     const Column &shown = columns_[place];
-    if (chosen && !shown.heading) continue;
-    std::vector<std::string> column = {shown.heading.value_or(shown.name)};
-    bool content = !chosen || out.empty();
+    if (!shown.heading) continue;
+    std::vector<std::string> column = {*shown.heading};
+    bool content = out.empty();
     for (std::size_t k = place; k < cells_.size(); k += columns_.size()) {
       if (const auto *text = std::get_if<std::string>(&cells_[k]))
         column.push_back(*text);
@@ -235,7 +234,7 @@ std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus
         column.push_back(short_number(*number, shown.digits));
       else {
         const auto &[value, error] = std::get<Measured>(cells_[k]);
-        column.push_back(error > 0.0 ? with_error(value, error, plus_minus)
+        column.push_back(error > 0.0 ? with_error(value, error)
                                      : short_number(value, shown.digits));
       }
       content = content || !(column.back().empty() || column.back() == "-");
@@ -250,7 +249,7 @@ std::string Table::text() const {
   std::string out;
   constexpr std::size_t most = 160, of_text = 100;
   for (const std::string &comment : comments_) out += wrapped(comment, of_text);
-  Rows columns = shown_columns(" +- ");
+  Rows columns = shown_columns();
   const Rows whole = turned(columns);
   std::vector<std::string> notes;
   const auto wide = [](const Rows &table) { return width_of(aligned(table)[0]) > most; };
@@ -286,22 +285,6 @@ std::string Table::text() const {
     add(turned(part), none);
   }
   return out;
-}
-
-std::string Table::html() const {
-  const Rows rows = turned(shown_columns(" ± "));
-  std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
-  for (const std::string &head : rows[0]) out += "<th>" + html_escape(head) + "</th>";
-  out += "</tr></thead>\n<tbody>\n";
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    out += "<tr><th scope=\"row\">" + html_escape(rows[i][0]) + "</th>";
-    for (std::size_t k = 1; k < rows[i].size(); ++k)
-      // Only sentences may wrap, not numbers.
-      out += fmt::format("<td{}>{}</td>", rows[i][k].size() > 32 ? " class=\"text\"" : "",
-                         html_escape(rows[i][k]));
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table></div>\n";
 }
 
 void Table::write(const std::string &path) const { write_file(path, csv()); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file table.h
-/// A table that is filled once and written as CSV and JSON for programs, and as text and HTML for
-/// people.
+/// A table that is filled once and written as CSV and JSON for programs, and as text for people.
 #ifndef LSM_POSTPROC_TABLE_H
 #define LSM_POSTPROC_TABLE_H
 
@@ -37,7 +36,7 @@ using Columns = std::vector<Column>;
 /// Numbers and texts in columns, added row by row.
 class Table {
  public:
-  /// A table of columns for programs only. It is not printed; as HTML it has all columns.
+  /// A table of columns for programs only. It is not printed.
   explicit Table(const std::vector<std::string> &names);
   explicit Table(std::string_view names);  ///< separated by commas
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
@@ -81,7 +80,6 @@ class Table {
   /// Text for a terminal: comments, and aligned columns without those that are empty. The leading
   /// cells of a row that repeat the row above are blank. A few wide rows are printed as columns.
   std::string text() const;
-  std::string html() const;  ///< the same columns as an element of a page; no comments
   /// Writes the CSV by write_file().
   /// \throws FileError
   void write(const std::string &path) const;
@@ -100,8 +98,8 @@ class Table {
   /// Whether any column has a heading for people.
   bool for_people() const;
   /// The columns that people see, each beginning with its heading. Columns without content are left
-  /// out, except the first one and in tables for programs only.
-  std::vector<std::vector<std::string>> shown_columns(std::string_view plus_minus) const;
+  /// out, except the first one.
+  std::vector<std::vector<std::string>> shown_columns() const;
 
   std::vector<std::string> comments_;
   std::vector<Cell> cells_;  ///< row by row

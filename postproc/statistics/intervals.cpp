@@ -41,30 +41,6 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   return found;
 }
 
-std::vector<double> times_at_places(const EventTable &table, double threshold, int places) {
-  const double length = table.length();
-  if (!table.info.x_begin || !table.info.rupture_length || !(length > 0.0))
-    throw std::invalid_argument(
-        table.path +
-        ": times at places: no columns x_begin and rupture_length, or no "
-        "length in the header, expected a catalogue of ruptures of a fault");
-  std::vector<double> times;
-  for (int place = 0; place < places; ++place) {
-    const double x = (place + 0.5) * length / places;
-    double before = NAN;
-    for (const Event &event : table.details) {
-      if (!(event.size >= threshold)) continue;
-      // The ruptured stretch may continue across the periodic boundary.
-      double beyond = std::fmod(x - event.x_begin, length);
-      if (beyond < 0.0) beyond += length;
-      if (beyond >= event.rupture_length) continue;
-      if (!std::isnan(before)) times.push_back(event.t_start - before);
-      before = event.t_start;
-    }
-  }
-  return times;
-}
-
 int shuffles_for(std::size_t times) {
   return static_cast<int>(
       std::clamp<std::size_t>(20'000'000 / std::max<std::size_t>(times, 1), 19, 200));
@@ -146,20 +122,18 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.sample.unit = table.time_unit();
   curve.sample.rescaled = settings.rescale;
   curve.sample.threshold = threshold.of(table);
-  std::vector<double> times =
-      settings.places > 0 ? times_at_places(table, curve.sample.threshold.size, settings.places)
-                          : inter_event_times(table, curve.sample.threshold.size);
+  std::vector<double> times = inter_event_times(table, curve.sample.threshold.size);
   curve.n = static_cast<std::int64_t>(times.size());
   curve.mean = mean_of(times);
   curve.variation = variation_of(times);
   const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
-  if (shuffles > 0 && settings.places == 0) add_clustering(curve, table, times, shuffles, settings);
+  if (shuffles > 0) add_clustering(curve, table, times, shuffles, settings);
   times = positive_ones(std::move(times));
   curve.zeros = curve.n - static_cast<std::int64_t>(times.size());
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
   curve.plot.bins = log_histogram(times, settings.factor);
-  curve.sample.memory = settings.places > 0 ? NAN : table.picker_memory();
+  curve.sample.memory = table.picker_memory();
   if (settings.rescale) curve.sample.memory /= curve.mean;
   if (!times.empty())
     curve.shortest = shortest_time(settings.shortest, curve.sample.memory, curve.fitted_mean());

@@ -22,9 +22,6 @@ namespace LSM::postproc {
 struct IntervalSettings {
   /// Smallest sizes (model energy), one curve each; empty: Threshold().
   std::vector<double> thresholds;
-  /// Number of equally spaced places along the fault: times between events that rupture the same
-  /// place, pooled over all places; 0: times between any two events.
-  int places = 0;
   bool rescale = false;              ///< divide the times by their mean
   double factor = usual_bin_factor;  ///< ratio of the edges of a bin
   std::optional<double> shortest;    ///< see shortest_time()
@@ -135,15 +132,6 @@ struct RankCorrelation {
 };
 /// Correlates successive inter-event times, given in order of time.
 RankCorrelation successive_rank_correlation(const std::vector<double> &times);
-
-/// Times between events that rupture the same place, for equally spaced places along the fault, the
-/// first half a spacing from its beginning; one place after the other. Places that are closer to
-/// each other than the length of events share events, so their times are not independent.
-/// \param events catalogue of ruptures
-/// \param threshold smallest size that is used (model energy)
-/// \param places number of places
-/// \throws std::invalid_argument if the table does not say where its events ruptured
-std::vector<double> times_at_places(const EventTable &events, double threshold, int places);
 
 /// Fits a density of inter-event times by one of the two methods.
 /// \param times above 0

@@ -20,7 +20,7 @@ import struct
 
 import numpy as np
 
-__all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "Table"]
+__all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "units", "Table"]
 
 _INTEGERS = ("event_id", "step_start", "step_end")
 
@@ -169,3 +169,12 @@ def rates(events, width, column="size"):
     time = (first + np.arange(count) + 0.5) * width
     return Table(np.rec.fromarrays([time, number, number / width, released, released / width], names="time,events,rate,released,release_rate"),
                  getattr(events, "header", {}))
+
+
+def units(length, p_speed, density, thickness=None):
+    """What one model unit of the fault is in SI, for a unit of length (m), a speed of P-waves (m/s), a density (kg/m^3) and a thickness (m;
+    without it the unit of length): see postproc/units.md. A dict: length, time, velocity, stress, energy, moment."""
+    velocity = p_speed / 2.08  # speeds of P- and S-waves and density of packings in model units
+    stress, volume = density / 0.286 * velocity**2, length**2 * (thickness or length)
+    return dict(length=length, time=length / velocity, velocity=velocity, stress=stress, energy=stress * volume,
+                moment=density * (1.06 * velocity)**2 * volume)

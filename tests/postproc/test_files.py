@@ -38,7 +38,6 @@ WRITERS = [
     "intervals slider.csv --replicas 0 --no-picture -o {base}",
     "compare slider.csv slider.csv --label a --label b --replicas 10 -o {base}",
     "series slider.pe --no-picture -o pic --export {base}.csv",
-    "report slider.csv --replicas 0 --interval-replicas 0 --bootstrap 2 -o {base}.csv",
     "explore slider.csv -o {base}.csv",
     "summary slider.csv -o {base}.csv",
     "count slider.csv --json {base}.csv",
@@ -198,18 +197,7 @@ def test_explore_refuses_files_of_other_runs(postproc, slider, files):
     refused(postproc, "explore late.csv --series slider.pe -o mixed.html", "slider.pe: step .* expected a file of the same run")
 
 
-def test_report_refuses_series_of_other_runs(postproc, slider, files):
-    """Each series must be of the run of one of the catalogues, whichever."""
-    run(slider, CHAIN, "--seed 2 --catalogue other.csv --pe-series other.pe")
-    quick = "--replicas 0 --interval-replicas 0 --bootstrap 2"
-    run(postproc, "report slider.csv other.csv --series other.pe --series slider.pe -o both.html", quick)
-    refused(postproc, f"report slider.csv --series slider.pe --series other.pe -o mixed.html {quick}",
-            "other.pe: seed = 2, but 1 in slider.csv: expected a file of the same run")
-    run(slider, CHAIN, "--seed 3 --pe-series third.pe")
-    refused(postproc, f"report slider.csv other.csv --series third.pe -o mixed.html {quick}",
-            "third.pe: seed = 3, but 1 in slider.csv, and none of 2 catalogues is of its run: expected a file of the same run")
-    Path("quakes.csv").write_text(QUAKES)
-    refused(postproc, f"report quakes.csv --series slider.pe -o mixed.html {quick}", "slider.pe: model = block-slider, but seismicity in quakes.csv")
+def test_explore_refuses_series_of_other_models(postproc, files):
     Path("fault.csv").write_text(Path("slider.csv").read_text().replace("# model = block-slider\n", "# model = lsm\n"))
     refused(postproc, "explore fault.csv --series slider.pe -o mixed.html", "slider.pe: model = block-slider, but lsm in fault.csv")
 
@@ -312,7 +300,7 @@ def test_numbers_beyond_all_reason(postproc, work):
     for k, length in enumerate((120, 240, 480, 945)):
         names.append(f"big{k}.csv")
         write_catalogue(names[-1], [x * 1e308 for x in pareto(100, k, 0.01) if x < 1], length=f"# length = {length}\n")
-    for command in "fit --scaling --replicas 0 --no-picture", "histograms --no-picture", "report --replicas 0 --interval-replicas 0":
+    for command in "fit --scaling --replicas 0 --no-picture", "histograms --no-picture":
         refused(postproc, f"{command} {' '.join(names)}", "big0.csv: event 1 has a time or size of .*, expected at most 1e.100", timeout=HOSTILE)
 
 

@@ -428,8 +428,8 @@ TEST(Saturation, IsRecognisedAndItsErrorsCover) {
 /// Faults of each length: `repeats`; sizes that grow by a power of the length.
 static void expect_no_saturation(int repeats) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-  for (double D : {0.0, 0.1, 0.3, 1.0}) {
-    for (int number : {6, 10, 16}) {
+  for (double D : {0.0, 0.3, 1.0}) {
+    for (int number : {6, 16}) {
       const int trials = 300;
       int found = 0;
       for (int i = 0; i < trials; ++i) {

@@ -166,7 +166,7 @@ def test_bins_are_recognized(postproc, work):
     for command in "magnitudes q.csv -o m --no-picture --overwrite", "fit q.csv -o f --no-picture --replicas 0 --overwrite":
         assert "in bins of" not in run(postproc, command).out
     write_catalogue("model.csv", np.arange(100.0), np.geomspace(1e-3, 1, 100))
-    for command in "fit", "histograms", "summary", "report", "explore":
+    for command in "fit", "histograms", "summary", "explore":
         refused(postproc, f"{command} model.csv --magnitude-bin 0.1 -o x", "--magnitude-bin, but no catalogue is of earthquakes")
 
 
@@ -184,7 +184,7 @@ def test_magnitudes_in_tenths_have_the_right_b(postproc, work):
 
 @pytest.mark.parametrize("width", [0.1, 0.2])
 def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
-    """1 + b / 1.5, by fit, summary, report and explore; the law is not rejected."""
+    """1 + b / 1.5, by fit, summary and explore; the law is not rejected."""
     magnitudes = gutenberg_richter(20000, width)
     quakes("q.csv", magnitudes)
     # The likelihood of a geometric series over the bins from M2 to M9 has its maximum where its mean is that of the data.
@@ -219,10 +219,6 @@ def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     data = json.loads(re.search(r'id="data">(.*?)</script>', Path("explore.html").read_text(), re.S).group(1))
     laws = [one["law"] for one in data["runs"][0]["kinds"][0]["thresholds"] if one["law"]["n"] > 5000]
     assert laws and all(abs(law["value"] - exponent) < 4 * law["error"] for law in laws)
-    run(postproc, "report q.csv -o report.html --replicas 20 --interval-replicas 0 --bootstrap 20")
-    page = Path("report.html").read_text()
-    assert f"magnitudes in bins of {width}" in page
-    assert all(abs(float(value) - exponent) < 0.05 for value in re.findall(r"<td>(1\.\d+) ± ", page)[:1])
 
 
 def test_smallest_magnitude_is_not_lost_in_a_name(postproc, work):
@@ -325,15 +321,6 @@ def test_times_of_0_are_counted(postproc, work):
 
 
 # ---------------------------------------------------------------- what counts as the data's fault
-
-
-def test_report_without_a_folder_for_pictures(postproc, work):
-    quakes("q.csv", gutenberg_richter(300, 0.1))
-    quick = "--replicas 0 --interval-replicas 0 --bootstrap 2"
-    run(postproc, f"report q.csv -o page.html {quick}")
-    for folder in "/no/such", "/proc":
-        refused(postproc, f"report q.csv -o page.html {quick}", "TMPDIR|/proc", env={"TMPDIR": folder})
-
 
 # ---------------------------------------------------------------- times that are computed and typed
 

@@ -613,7 +613,7 @@ def test_outputs_are_not_inputs(no, work):
     for name in "fits", "table1", "bvalues", "omori":
         shutil.copy("good.csv", f"own.{name}.csv")
     for words in ("magnitudes own.bvalues.csv -o own", "aftershocks own.omori.csv -o own", "histograms good.csv -o ./good",
-                  "intervals own.table1.csv -o own", "fit own.fits.csv -o own", "fit good.csv -o x --json good.csv", "report good.csv -o good.csv",
+                  "intervals own.table1.csv -o own", "fit own.fits.csv -o own", "fit good.csv -o x --json good.csv",
                   f"export good.csv -o ../{work.name}/good.csv --overwrite"):
         no("is read by this command, expected another name", words)
     series("pe.csv", 50)
@@ -635,7 +635,7 @@ def test_bad_options(do, no):
         for number in "-1", "nan":
             no(f"threshold: expected a number of 0 or more, not '{number}'", f"{command} good.csv --threshold {number} -o x")
     Path("new").mkdir()
-    no("new/: is a directory, expected a file name|new/: ends with a folder", "report good.csv -o new/")
+    no("new/: is a directory, expected a file name|new/: ends with a folder", "explore good.csv -o new/")
     no("subcommand", "")
     no("help lists the options", "smooth good.csv")
     no("is required", "pick good.csv")
@@ -643,7 +643,7 @@ def test_bad_options(do, no):
     do("--version").printed("^postproc [0-9]")
 
 
-@pytest.mark.parametrize("command", "pick histograms intervals fit series magnitudes aftershocks export report explore".split())
+@pytest.mark.parametrize("command", "pick histograms intervals fit series magnitudes aftershocks export explore".split())
 def test_bad_files(do, no, command):
     said = do(command, "--help").out
     assert "--output" in said and "Exit status" not in said

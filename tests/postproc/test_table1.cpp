@@ -220,36 +220,6 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
   EXPECT_LT(curve.fits[1].fit.lo, 0.5);
 }
 
-TEST(Intervals, AtOnePlaceOnly) {
-  // Four places of a fault of length 8: 1, 3, 5, 7.
-  EventTable table = events({0.0, 10.0, 25.0, 45.0, 70.0}, {1.0, 1.0, 0.1, 1.0, 1.0});
-  table.info.parameters = {{"length", "8"}};
-  table.info.x_begin = table.info.rupture_length = true;
-  // The fourth rupture continues across the border to 1.5.
-  const double begin[] = {0.5, 2.0, 0.0, 6.5, 1.0};
-  // They reach the places 1; 3; all; 7 and 1; 1, as the last one ends before 3.
-  const double length[] = {1.0, 2.0, 8.0, 3.0, 2.0};
-  for (std::size_t i = 0; i < 5; ++i) {
-    LSM::Event event;
-    static_cast<LSM::EventSummary &>(event) = table.events[i];
-    event.x_begin = begin[i];
-    event.rupture_length = length[i];
-    table.details.push_back(event);
-  }
-  EXPECT_EQ(times_at_places(table, 0.5, 4), (std::vector<double>{45.0, 25.0}));
-  // With the small event, the times are 0, 25, 45, 70 at 1; 10, 25 at 3; 25 at 5; 25, 45 at 7.
-  EXPECT_EQ(times_at_places(table, 0.0, 4), (std::vector<double>{25.0, 20.0, 25.0, 15.0, 20.0}));
-  IntervalSettings settings;
-  settings.thresholds = {0.0};
-  settings.deltas.clear();
-  settings.places = 4;
-  const auto curves = interval_curves({table}, settings);
-  EXPECT_EQ(curves[0].n, 5);
-  EXPECT_DOUBLE_EQ(curves[0].mean, 21.0);
-  table.info.x_begin = false;
-  EXPECT_THROW(times_at_places(table, 0.0, 4), std::invalid_argument);
-}
-
 TEST(Table1, PrintedValuesAsInThePaper) {
   const Table printed = table1({}, false);
   EXPECT_EQ(printed.rows(), 3);

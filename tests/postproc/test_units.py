@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""SI units of the fault: the same conversion in units, magnitudes and export."""
+"""SI units of the fault: the same conversion in magnitudes, export and lsm.units."""
 import json
 import math
+import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 import numpy as np
 import pytest
 from data_files import table, write_catalogue
-from programs import refused, run
+from programs import SOURCE, refused, run
+
+sys.path.insert(0, str(SOURCE / "python"))
+import lsm  # noqa: E402
 
 ROCK = "--unit-length 100 --p-speed 6000 --density 2700"
 # Computed by hand from the speeds of P-waves, 2.08, and S-waves, 1.06, and the density 0.286 in model units.
@@ -35,18 +39,14 @@ def mw(moment):
     return 2 / 3 * (math.log10(moment) - 9.1)
 
 
-def test_units(postproc, catalogue):
-    catalogue("c.csv")
-    run(postproc, "units c.csv --json u.json", ROCK)
-    found = json.loads(Path("u.json").read_text())
-    unit = {row["quantity"]: row["value"] for row in found["units"]}
-    assert unit["time"] == pytest.approx(TIME) and unit["velocity"] == pytest.approx(VELOCITY)
-    assert unit["stress, stiffness"] == pytest.approx(2700 / 0.286 * VELOCITY**2 / 1e6)
-    assert unit["energy, sizes"] == pytest.approx(ENERGY) and unit["slip times length, moments"] == pytest.approx(MOMENT)
-    fault = {row["quantity"]: row["value"] for row in found["faults"]}
-    # The paper's fault in SI units: 1.7 GPa, 0.7 m/s
-    assert fault["normal stress"] == pytest.approx(1728, abs=1) and fault["velocity of each plate"] == pytest.approx(0.721, abs=1e-3)
-    assert fault["length of the fault"] == 4 and fault["Mw of the largest event"] == pytest.approx(mw(10 * MOMENT))
+def test_units():
+    unit = lsm.units(length=100, p_speed=6000, density=2700)
+    assert unit["time"] == pytest.approx(TIME) and unit["velocity"] == pytest.approx(VELOCITY) and unit["length"] == 100
+    assert unit["stress"] == pytest.approx(2700 / 0.286 * VELOCITY**2)
+    assert unit["energy"] == pytest.approx(ENERGY) and unit["moment"] == pytest.approx(MOMENT)
+    # The paper's fault: 1.7 GPa, 0.7 m/s
+    assert 0.022 * unit["stress"] == pytest.approx(1728e6, rel=1e-3) and 0.00025 * unit["velocity"] == pytest.approx(0.721, abs=1e-3)
+    assert lsm.units(100, 6000, 2700, thickness=5000)["moment"] == pytest.approx(50 * MOMENT)
 
 
 def test_export(postproc, catalogue):
@@ -102,12 +102,11 @@ def test_nothing_is_chosen(postproc, catalogue):
         words = " ".join(f"{option} {value}" for option, value in chosen.items() if option != left_out)
         refused(postproc, f"export c.csv -o x.csv {words}", f"no {left_out}: a model has neither dates nor magnitudes, expected --unit-length")
     for left_out in "--unit-length 100", "--p-speed 6000", "--density 2700":
-        for command in "export", "magnitudes", "units":
-            output = "" if command == "units" else "-o x"
-            refused(postproc, f"{command} c.csv {output} " + ROCK.replace(left_out, ""), f"no {left_out.split()[0]}: expected all of")
+        for command in "export", "magnitudes":
+            refused(postproc, f"{command} c.csv -o x " + ROCK.replace(left_out, ""), f"no {left_out.split()[0]}: expected all of")
     refused(postproc, f"export c.csv -o x.csv {ROCK} --time-unit day", "time-unit with --unit-length, from which it follows")
     refused(postproc, f"export c.csv -o x.csv {ROCK} --magnitude-constant 1", "magnitude-constant with --unit-length, from which it follows")
-    for command in "export slider.csv -o x.csv", "units slider.csv", "magnitudes slider.csv -o x":
+    for command in "export slider.csv -o x.csv", "magnitudes slider.csv -o x":
         refused(postproc, f"{command} {ROCK}", "slider.csv: model is 'block-slider', expected 'lsm' for SI units")
 
 
@@ -116,4 +115,3 @@ def test_catalogue_without_moments_says_how_to_record_them(postproc):
     write_catalogue("c.csv", t, np.array([0.5, 0.05]), dict(model="lsm", length=40), t_end=t + 1, pe_start=[3] * 2, pe_end=[2] * 2)
     for command in "export c.csv -o x.csv", "magnitudes c.csv -o x":
         refused(postproc, f"{command} {ROCK}", "c.csv: has no column slip_moment.*-var location yes")
-    run(postproc, "units c.csv", ROCK).printed("Me of the largest event")

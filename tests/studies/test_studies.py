@@ -146,18 +146,11 @@ def test_kill_slider(studies):
     same_bytes("whole/chain/series.bin", "part/chain/series.bin")
 
 
-def killed_fault(studies, name):
-    killed(studies, name, "fault.restart.*.info")
-    same(f"whole/{name}/fault.catalogue.csv", f"part/{name}/fault.catalogue.csv", 15)
-    same_bytes(f"whole/{name}/fault.pe.bin", f"part/{name}/fault.pe.bin")
-
-
-def test_kill_fault_1_rank(studies):
-    killed_fault(studies, "one")
-
-
-def test_kill_fault_2_ranks(studies):
-    killed_fault(studies, "two")
+def test_kill_fault(studies):
+    # On two ranks; test_stop goes on from a restart file on one.
+    killed(studies, "two", "fault.restart.*.info")
+    same("whole/two/fault.catalogue.csv", "part/two/fault.catalogue.csv", 15)
+    same_bytes("whole/two/fault.pe.bin", "part/two/fault.pe.bin")
 
 
 def test_stop(studies, work):

@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One self-contained HTML page on a set of catalogues: counts, figures (SVG), fits, finite-size scaling, Table 1, parameters, and what of
+it is not in the paper. Numbers, texts and figures are those of the commands of postproc.
+
+report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--series FILE]... [--from TIME] [--to TIME]
+          [--threshold SIZE] [--lenient] [--replicas N] [--seed N] CATALOGUE...
+"""
+import argparse
+import gzip
+import html
+import json
+import lzma
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+from text_tables import header_of  # noqa: E402
+
+GENERATOR = '<meta name="generator" content="report.py">'
+MODELS = {"lsm": "Fault", "block-slider": "Block-slider", "earthquakes": "Earthquakes"}
+# The exponents that the paper prints. Where they hold it does not say; the ranges are ours, where they are seen.
+GUIDES = {"lsm": ["--guide=-1.07:1e-4:0.1"], "block-slider": ["--guide=-0.5:1e-2:1", "--guide=-1:1:100"]}
+RANGES = {"block-slider": ["--range", "1e-2:1", "--range", "1:100"]}
+FIGURES = {"lsm": (12, 14), "block-slider": (13, 15)}
+PRINTED = {
+    "lsm": "The paper (Sect. 4.2) prints the exponent 1.07 over about 3 decades of the sizes of the LSM; how it was fitted is not stated.",
+    "block-slider": "The paper (Sect. 4.2) prints the exponents about 1.0 for moderate sizes of the Block-Slider, over about 3 decades, and about "
+    "0.5 for small ones; how they were fitted is not stated.",
+}
+KINDS = {
+    "pe": "Sizes are drops of the potential energy of the whole model, so that ruptures at the same time at different places are one event. In long "
+    "models more of them are joined: growth of s* from this is no finite-size effect.",
+    "ruptures": "Events are ruptures †: connected in space and time, so that those at the same time at different places stay apart. The events of "
+    "the paper are drops of the total potential energy, so its exponents and times are about another quantity.",
+}
+
+
+def parameters_of(path):
+    """The header of a catalogue of a model; {} for earthquakes. \\raises OSError"""
+    raw = Path(path).read_bytes()
+    for magic, module in ((b"\x1f\x8b", gzip), (b"\xfd7zXZ\0", lzma)):
+        if raw.startswith(magic):
+            raw = module.decompress(raw)
+    lines = raw.decode("utf-8", "replace").splitlines()
+    return header_of(lines) if lines and lines[0].startswith("# lsm-catalogue") else {}
+
+
+class Postproc:
+    """Runs commands of postproc in a folder of its own."""
+
+    def __init__(self, program, folder, options):
+        self.program, self.folder, self.options, self.pictures = program, Path(folder), options, 0
+
+    def __call__(self, command, *words):
+        """What a command prints, without the names of its files. \\raises ValueError with its line of error"""
+        done = subprocess.run([self.program, command, *map(str, words), *self.options], capture_output=True, text=True)
+        if done.returncode:
+            raise ValueError(done.stderr.strip().removeprefix("postproc: "))
+        return "".join(line + "\n" for line in done.stdout.splitlines() if not line.startswith("wrote ")) + done.stderr
+
+    def text(self, *words):
+        return f'<div class="wide"><pre>{html.escape(self(*words))}</pre></div>\n'
+
+    def figure(self, name, title, caption):
+        """A picture that a command drew, as an element of the page; its identifiers must differ from those of others."""
+        svg = (self.folder / f"{name}.svg").read_text()
+        self.pictures += 1
+        svg = svg[svg.index("<svg"):svg.index("</svg>") + 6]
+        svg = re.sub(r"""( id=["']|href=["']#|url\(#)""", rf"\1f{self.pictures}-", svg)
+        svg = re.sub("<title>.*?</title>", f"<title>{html.escape(title)}</title>", svg, count=1, flags=re.S)
+        svg = re.sub("<desc>.*?</desc>", "", svg, count=1, flags=re.S).replace('fill="#ffffff"', 'fill="none"', 1)
+        return (f'<figure>\n<div class="wide"><svg role="img"{svg[4:]}</div>\n'
+                f"<figcaption><b>{html.escape(title)}.</b> {caption}</figcaption>\n</figure>\n")
+
+    def base(self, name):
+        return ["-o", self.folder / name]
+
+
+def or_why(make):
+    """What make() returns, or a paragraph with the reason if the data cannot be drawn. The catalogues were read before."""
+    try:
+        return make()
+    except ValueError as error:
+        return f'<p class="bad">{html.escape(str(error))}</p>\n'
+
+
+def section(postproc, files, labels, model, kind, settings):
+    """Sizes, scaling and times of the catalogues of one model and kind of events."""
+    named = [*files, *(f"--label={label}" for label in labels)]
+    least = ["--threshold", settings.threshold] if settings.threshold else []
+    of_sizes, of_times = (f"Compare with Fig. {n} of the paper. " if kind == "pe" else "" for n in FIGURES.get(model, ("", "")))
+    quick = ["--seed", settings.seed, "--replicas", settings.replicas]
+
+    def sizes():
+        postproc("histograms", *named, *least, *GUIDES.get(model, []), *postproc.base("sizes"))
+        return postproc.figure(
+            "sizes", "Densities of event sizes", f"{of_sizes}Straight lines: the paper's exponents; their ranges are †. Ten bins a "
+            "decade, count / (N width), Poisson errors (one decade down where they reach zero).")
+
+    def fits():
+        text = postproc.text("fit", *named, *least, *quick, *postproc.base("fit"))
+        return text + "".join(postproc.text("fit", *named, *quick, *RANGES[model], *postproc.base("ranges")) for _ in [0] if model in RANGES)
+
+    def scaling():
+        text = postproc.text("fit", *named, *least, *quick[:2], "--replicas", 0, "--no-comparison", "--scaling", *postproc.base("scaling"))
+        if not (postproc.folder / "scaling.scaling.svg").exists():  # no characteristic size in any catalogue
+            return text
+        return text + postproc.figure(
+            "scaling.scaling", "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
+            "of the sizes; errors by resampling blocks of time; lines: weighted fits.")
+
+    def times(rescaled):
+        words = [*named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood"]
+        text = postproc.text("intervals", *words, "--seed", settings.seed, "--replicas", 0 if rescaled else settings.replicas,
+                             *["--rescale"] * rescaled, *postproc.base("times"))
+        if rescaled:
+            return postproc.figure("times", "Inter-event times divided by their mean",
+                                   "Not in the paper; the scaling in which Corral (2004) found the "
+                                   "distribution of seismicity to be universal.")
+        return postproc.figure(
+            "times", "Densities of inter-event times", f"{of_times}Start to start; lines: fitted generalised gamma densities, "
+            "maximum likelihood with δ = 1 where that is not degenerate.") + text
+
+    out = f"<p>{PRINTED[model]} Ours is by maximum likelihood on a range with both ends.</p>\n" if model in PRINTED and kind == "pe" else ""
+    out = f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n{or_why(sizes)}{out}{or_why(fits)}"
+    if model != "earthquakes":
+        out += f"<h3>Finite-size scaling</h3>\n{or_why(scaling)}"
+    return out + f"<h3>Inter-event times</h3>\n{or_why(lambda: times(False))}{or_why(lambda: times(True))}"
+
+
+def parameter_table(headers):
+    """Parameters of all catalogues, as the programs wrote them."""
+    keys = list(dict.fromkeys(key for header in headers for key in header))
+    rows = "".join(f'<tr><th scope="row">{html.escape(key)}</th>' + "".join(f"<td>{html.escape(h.get(key, '–'))}</td>" for h in headers) + "</tr>\n"
+                   for key in keys)
+    return f'<div class="wide"><table>\n{rows}</table></div>\n'
+
+
+def page_of(settings, folder):
+    """The whole page, which needs no other file and no network. \\raises OSError, ValueError"""
+    options = [f"--{name}={value}" for name, value in (("from", settings.begin), ("to", settings.end)) if value is not None]
+    postproc = Postproc(settings.postproc, folder, options + ["--lenient"] * settings.lenient)
+    labels = settings.label or []
+    if labels and len(labels) != len(settings.catalogues):
+        raise ValueError(f"--label given {len(labels)} times, expected once for each of {len(settings.catalogues)} catalogues")
+    counts = postproc.text("count", *settings.catalogues, *(f"--label={label}" for label in labels), "--json", folder / "count.json")
+    names = [row["label"] for row in json.loads((folder / "count.json").read_text())["catalogues"]]
+    groups = {}
+    for n, path in enumerate(settings.catalogues):
+        header = parameters_of(path)
+        model = header.get("model", "earthquakes")
+        # Sliders of other leaf springs are other models: their sizes differ more than those of other lengths.
+        key = (model, header.get("events", "pe" if header else ""), header.get("kl", "") if model == "block-slider" else "")
+        groups.setdefault(key, []).append((path, names[n], header))
+    models = contents = parameters = ""
+    several = {model for model, _, kl in groups if len({k for m, _, k in groups if m == model}) > 1}
+    for number, key in enumerate(sorted(groups, key=lambda key: (list(MODELS).index(key[0]), key[1:])), 1):
+        model, kind, kl = key
+        paths, some, headers = zip(*groups[key])
+        heading = MODELS[model] + (f": {kind}" if kind not in ("pe", "") else "") + (f", k_l = {kl}" if model in several else "")
+        contents += f'<li><a href="#model-{number}">{html.escape(heading)}</a></li>\n'
+        models += f'<h2 id="model-{number}">{html.escape(heading)}</h2>\n{section(postproc, paths, some, model, kind, settings)}'
+        if any(headers):
+            parameters += f"<h3>{html.escape(heading)}</h3>\n<p>{html.escape('; '.join(some))}</p>\n{parameter_table(headers)}"
+    regimes = "".join(postproc.text("series", path, "--no-picture", *postproc.base(f"series{n}")) for n, path in enumerate(settings.series or []))
+    if regimes:
+        regimes = ("<h2>Stick-slip or creep</h2>\n" + regimes +
+                   "<p>† The paper shows in its Fig. 8 that PE rises steadily and drops at once. Saw-tooth: "
+                   "rate at which PE falls over the rate at which it rises; large is stick-slip, near 1 creep.</p>\n")
+    values = dict(title=html.escape(settings.title), contents=contents, catalogues=counts, regimes=regimes, models=models, parameters=parameters,
+                  replicas=str(settings.replicas), seed=str(settings.seed), generator=GENERATOR)
+    template = Path(__file__).with_name("report.html").read_text()
+    return re.sub(r"{{(\w+)}}", lambda found: values[found[1]], template)
+
+
+def main(settings):
+    page = Path(settings.output)
+    if page.is_dir():
+        raise ValueError(f"{page}: is a directory, expected a file name")
+    if any(page.exists() and page.samefile(path) for path in [*settings.catalogues, *(settings.series or [])] if Path(path).exists()):
+        raise ValueError(f"{page}: is read by this program, expected another name")
+    if page.exists() and GENERATOR not in page.read_text(errors="replace")[:1000]:
+        raise ValueError(f"{page} exists and is no page of this program, expected another name")
+    if not shutil.which(settings.postproc):
+        raise ValueError(f"{settings.postproc}: no such program, expected postproc (--postproc)")
+    if not shutil.which("gnuplot"):
+        raise ValueError("gnuplot not found (Debian package gnuplot-nox)")
+    with tempfile.TemporaryDirectory() as folder:
+        text = page_of(settings, Path(folder))
+    new = page.with_name(page.name + ".new")
+    new.write_text(text)
+    new.replace(page)
+    print(f"wrote {page}")
+
+
+def parser():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
+    options.add_argument("--postproc", default="postproc", metavar="PROGRAM")
+    options.add_argument("-o", "--output", default="report.html", metavar="PAGE")
+    options.add_argument("--title", default="Event statistics of the fault and the block-slider")
+    options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
+    options.add_argument("--series", action="append", metavar="FILE", help="PE series of runs, whose regime, stick-slip or creep, the page states †")
+    options.add_argument("--from", dest="begin", metavar="TIME")
+    options.add_argument("--to", dest="end", metavar="TIME")
+    options.add_argument("--threshold", metavar="SIZE", help="smallest size of the events; without it that of postproc")
+    options.add_argument("--lenient", action="store_true", help="skip lines that cannot be read")
+    options.add_argument("--replicas", type=int, default=100, help="synthetic samples of p-values; 0: none")
+    options.add_argument("--seed", type=int, default=1)
+    return options
+
+
+if __name__ == "__main__":
+    try:
+        main(parser().parse_args())
+    except (OSError, ValueError) as error:
+        sys.exit(f"report.py: {error}")

@@ -1,0 +1,608 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Draws the ruptures of faults †: catalogues of compute lsm/events with ruptures, and slip histories.
+
+    python3 -m lsm.ruptures fault.ruptures.csv --history fault.slip.bin -o BASE
+
+Of all catalogues: ruptures by length (BASE-lengths) and moment (BASE-moments), moment against length (BASE-length), drop of the total
+PE, which the paper expects to be proportional, against moment (BASE-pe), and stress drop against moment (BASE-stress). With the slip
+history of the first catalogue's run: the slip velocity in space and time with the ruptures outlined (BASE-spacetime), lines of the
+slip along the fault (BASE-lines), and the rupture of the largest moment in detail (BASE-event); of a plane, maps of that rupture, of
+its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip velocity (BASE-rate), and its moment rate
+(BASE-momentrate). Each is a table, BASE-NAME.csv, and its picture, .png and .svg. Quantities are in model units.
+"""
+import argparse
+import csv
+import math
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+import lsm
+from lsm.drawing import axis, draw, quote
+
+COLUMNS = ["slip_moment", "rupture_length", "x_hypocentre", "x_begin", "stress_drop"]
+MOST, LARGEST = 20000, 1000  # points of a catalogue in scatter plots: beyond, the largest ones and every n-th
+FEWEST = 3  # ruptures for a fit
+MOST_ROWS, MOST_COLUMNS, MOST_OUTLINES = 700, 1000, 300  # of the picture of slip velocities
+MADE = "made by lsm.ruptures: "
+FLAME = "set palette defined (0 '#ffffff', 1 '#fff3c4', 2 '#fdc86b', 3 '#f3883c', 4 '#c7443c', 5 '#7a1f63', 6 '#1d0b3a')\n"
+VELOCITIES = FLAME + """set cbrange [0:3]
+set cbtics ('1' 0, '10' 1, '100' 2, '1000' 3)
+set cblabel 'Slip velocity / driving velocity' offset 1.5
+unset grid
+"""
+KEY = "set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1\n"
+MOMENT, LENGTH, PLACE = "Slip moment (model units)", "Length of the rupture (model units)", "Position along the fault (model units)"
+
+
+class Figure(NamedTuple):
+    """A table and the script that draws it. rows: lists of cells; comments[0] says what it is."""
+    ending: str
+    comments: list
+    names: str
+    rows: list
+    script: str = ""  # "": a table only
+    size: tuple = (900, 600)
+
+
+class Catalogue(NamedTuple):
+    path: str
+    label: str
+    events: lsm.Table
+    length: float  # of the fault
+
+    def number(self, key, otherwise=math.nan):
+        """A positive number of the header."""
+        try:
+            value = float(self.events.header[key])
+        except (KeyError, ValueError):
+            return otherwise
+        return value if value > 0 else otherwise
+
+    @property
+    def plane(self):
+        return "slip_bin_dip" in self.events.header
+
+
+def load(path, label=None, begin=-math.inf, end=math.inf):
+    """A catalogue of ruptures, those that start at `begin` or later and before `end`. \\raises ValueError"""
+    events = lsm.read_catalogue(path)
+    head = events.header
+    if head.get("model") != "lsm" or head.get("events") != "ruptures" or not set(COLUMNS) <= set(events.dtype.names):
+        raise ValueError(f"{path}: no catalogue of ruptures of a fault, expected one of compute lsm/events with ruptures")
+    events = events[(events["t_start"] >= begin) & (events["t_start"] < end)]
+    one = Catalogue(path, label, events, math.nan)
+    length = one.number("length")
+    return one._replace(length=length, label=label or f"fault, length {length:g}")
+
+
+# ---- numbers by length and moment
+
+
+def densities(one, column):
+    """lo, hi, centre, count and density of the bins: ruptures per time, length of the fault, and length or moment.
+
+    Moments are counted in ten bins a decade. Lengths are whole numbers of bins of the fault, of which a bin of the density covers as
+    many as its width allows.
+    """
+    values = one.events[column][one.events[column] > 0]
+    unit = (one.events["t_end"].max(initial=-math.inf) - one.events["t_start"].min(initial=math.inf)) * one.length
+    if not len(values) or not unit > 0:
+        return np.zeros((5, 0))
+    if column == "slip_moment":
+        number = np.floor(np.round(10 * np.log10(values), 9)).astype(int)
+        edges = 10.0**((number.min() + np.arange(np.ptp(number) + 2)) / 10)
+        centre, count = np.sqrt(edges[:-1] * edges[1:]), np.bincount(number - number.min())
+    else:
+        bin, edges = one.number("slip_bin", 1.0), [1]
+        whole = np.maximum(1, np.rint(values / bin))
+        while edges[-1] <= whole.max():
+            edges.append(max(edges[-1] + 1, round(10**0.1 * edges[-1])))
+        edges = np.array(edges)
+        centre = np.sqrt(edges[:-1] * (edges[1:] - 1.0)) * bin
+        edges = (edges - 0.5) * bin
+        count = np.histogram(whole * bin, edges)[0]
+    return edges[:-1], edges[1:], centre, count, count / (unit * np.diff(edges))
+
+
+def smallest_moment(one):
+    """Moment of one bin that slips at the threshold velocity for one interval; NaN: not known."""
+    return math.prod(one.number(key) for key in ("modulus", "slip_velocity", "interval", "dt", "slip_bin")) * one.number("slip_bin_dip", 1.0)
+
+
+def density_figure(catalogues, ending, column):
+    rows, curves, x, y = [], [], [], []
+    for number, one in enumerate(catalogues, 1):
+        bins = densities(one, column)
+        lo, hi, centre, count, density = bins
+        error = np.sqrt(count) * np.divide(density, count, out=np.zeros_like(density), where=count > 0)
+        rows += [[number, one.length, *row, one.label] for row in zip(lo, hi, centre, count.astype(int), density, error)]
+        x, y = [*x, *centre[count > 0]], [*y, *density[count > 0]]
+        if len(lo):
+            bar = f"table using (row({number})):($7-$8 > 0.1*$7 ? $7-$8 : 0.1*$7):(0):($7+$8-($7-$8 > 0.1*$7 ? $7-$8 : 0.1*$7))"
+            curves.append(f"{bar} with vectors heads size screen 0.003,90 lt {number} lw 0.8 notitle")
+            curves.append(f"table using (row({number})):7 with points lt {number} title {quote(f'{one.label} ({int(count.sum())} ruptures)')}")
+    if not rows:
+        raise ValueError("no ruptures in any catalogue, nothing to draw")
+    what, unit = ("moment", MOMENT) if column == "slip_moment" else ("length", LENGTH)
+    limit = smallest_moment(catalogues[0])
+    if column == "slip_moment" and limit > min(x):
+        curves.append(f"'+' using ({limit}):({min(y)}):(0):({max(y) - min(y)}) every ::::0 with vectors nohead lc rgb '#777777' lw 1.6 dt (6,4) "
+                      "title 'detection limit: one bin in one interval'")
+    script = KEY + axis("x", unit, min(x), max(x), True) + axis("y", f"Ruptures per time, fault length and {what}", min(y), max(y), True)
+    return Figure(ending, [f"ruptures per time, length of the fault and {what}; errors: Poisson"],
+                  "curve,length,bin_lo,bin_hi,centre,count,density,error,label", rows,
+                  f"{script}row(k) = $1 == k && $6 > 0 ? $5 : NaN\nplot {', '.join(curves)}", (900, 530 + 23 * len(catalogues)))
+
+
+# ---- relations
+
+
+class Fit(NamedTuple):
+    """Least-squares line through logarithms, y = 10^intercept x^slope; scatters in decades; ratio: if y were proportional to x."""
+    n: int
+    slope: float
+    error: float
+    intercept: float
+    scatter: float
+    ratio: float
+    ratio_scatter: float
+
+    def text(self, what):
+        return f"{what}: slope {self.slope:.4g} ± {self.error:.2g}, scatter {self.scatter:.2g} decades (n = {self.n})"
+
+    def ratio_text(self, what):
+        return f"{self.text(what)}; if proportional: ratio {self.ratio:.3g}, scatter {self.ratio_scatter:.2g} decades"
+
+    def line(self, colour, what):
+        title = quote(f"{what}: slope {self.slope:.3g} ± {self.error:.1g}")
+        return f"10**({self.intercept:.15g} + {self.slope:.15g} * log10(x)) with lines lc rgb '{colour}' lw 1.6 title {title}"
+
+
+def fit(x, y):
+    """\\raises ValueError for too few different values"""
+    x, y = np.log10(x), np.log10(y)
+    n = len(x)
+    spread = np.sum((x - np.mean(x))**2) if n else 0.0
+    if n < FEWEST or not spread > 1e-12 * n:
+        raise ValueError(f"{n} ruptures for a fit, expected at least {FEWEST} of different sizes")
+    slope = np.sum((x - np.mean(x)) * (y - np.mean(y))) / spread
+    intercept = np.mean(y) - slope * np.mean(x)
+    rest = np.sum((y - intercept - slope * x)**2)
+    return Fit(n, slope, math.sqrt(rest / (n - 2) / spread), intercept, math.sqrt(rest / n), 10.0**np.mean(y - x), np.std(y - x))
+
+
+def alone(events):
+    """For each rupture, whether all others that overlap with it in time have less than a tenth of its moment together, as a drop of the
+    total PE includes all of them."""
+
+    def moment_until(times, at, side):
+        order = np.argsort(times, kind="stable")
+        return np.concatenate([[0.0], np.cumsum(size[order])])[np.searchsorted(times[order], at, side)]
+
+    size = np.abs(events["slip_moment"])
+    others = moment_until(events["t_start"], events["t_end"], "left") - moment_until(events["t_end"], events["t_start"], "right") - size
+    return others < 0.1 * size
+
+
+def scatter(catalogues, columns):
+    """Rows of the ruptures of positive moment, with the values of columns(events, catalogue), and elements that plot columns 4 and 5. Of very
+    many ruptures, every n-th and the largest are shown."""
+    rows, curves, keys, layers = [], [], [], 5 if len(catalogues) > 1 else 1
+    for number, one in enumerate(catalogues, 1):
+        events = one.events[one.events["slip_moment"] > 0]
+        every = max(1, -(-len(one.events) // MOST))
+        shown = np.arange(len(events)) % every == 0
+        if every > 1:
+            shown |= events["slip_moment"] >= np.sort(events["slip_moment"])[-LARGEST:][0]
+        values = [np.asarray(column)[shown] for column in columns(events, one)]
+        rows += [[number, one.label, *row] for row in zip(events["event_id"][shown], *values)]
+        some = f", shown: the largest {LARGEST} and one of {every}" * (every > 1)
+        keys.append(f"keyentry with points lt {number} title {quote(f'{one.label} ({len(one.events)} ruptures{some})')}")
+    # A fifth of each catalogue at a time, so that none hides the others.
+    curves += [f"table every {layers}::{layer} using ($1 == {k} ? $4 : NaN):5 with points lt {k} ps 0.6*point notitle"
+               for layer in range(layers) for k in range(1, len(catalogues) + 1)]  # yapf: disable
+    return rows, curves + keys
+
+
+def relations(catalogues):
+    """The figures of moment, length, drop of PE and stress drop. \\raises ValueError if there are too few ruptures"""
+    events = [one.events[one.events["slip_moment"] > 0] for one in catalogues]
+    by_itself = [alone(one.events)[one.events["slip_moment"] > 0] for one in catalogues]
+    moment = np.concatenate([one["slip_moment"] for one in events])
+    if not len(moment):
+        raise ValueError("nothing to draw, no rupture of positive moment")
+    length, drop = (np.concatenate(column) for column in zip(*((one["rupture_length"], one["pe_start"] - one["pe_end"]) for one in events)))
+    whole = np.concatenate([one["rupture_length"] > of.length * (1 - 1e-9) for one, of in zip(events, catalogues)])
+    fell, isolated = drop > 0, np.concatenate(by_itself)
+    line = fit(length[~whole], moment[~whole])
+    if not fell.any():
+        raise ValueError("nothing to draw, no rupture of positive moment during which PE fell")
+    every, single = fit(moment[fell], drop[fell]), fit(moment[fell & isolated], drop[fell & isolated]) if (fell & isolated).sum() >= FEWEST else None
+    size = (900, 530 + 23 * (len(catalogues) + 2))
+    rows, curves = scatter(catalogues, lambda e, one: (e["rupture_length"], e["slip_moment"], (e["rupture_length"] > one.length *
+                                                                                               (1 - 1e-9)).astype(int)))
+    curves += [line.line("#000000", "fit, whole fault excluded"),
+               f"{10**(line.intercept + line.slope - 2):.15g} * x**2 with lines lc rgb '#777777' dt (4,4) title 'slope 2: constant stress drop'"]  # yapf: disable
+    yield Figure("-length", ["slip moment (shear modulus x slip x length) against length; whole_fault: 1 where the whole fault slipped",
+                             line.text("fit, without those of the whole fault")], "catalogue,label,event_id,length,moment,whole_fault", rows,
+                 KEY + axis("x", LENGTH, length.min(), length.max(), True) + axis("y", MOMENT, moment.min(), moment.max(), True)
+                 + f"plot {', '.join(curves)}", size)  # yapf: disable
+
+    rows, curves = scatter(
+        catalogues, lambda e, one: (e["slip_moment"], e["pe_start"] - e["pe_end"], alone(one.events)[one.events["slip_moment"] > 0].astype(int)))
+    best = single or every
+    curves += ["table using ($6 == 1 && $5 > 0 ? $4 : NaN):5 with points pt 6 ps 1.5*point lc rgb '#000000' title 'isolated in time'",
+               every.line("#777777", "all")] + ([single.line("#000000", "isolated")] if single else [])  # yapf: disable
+    curves.append(f"{best.ratio:.15g} * x with lines lc rgb '#D55E00' dt (6,4) title 'proportional: {best.ratio:.2g} x moment'")
+    said = [every.ratio_text("fit of all")] + ([single.ratio_text("fit of those isolated in time")] if single else [])
+    yield Figure("-pe", ["drop of the total PE from beginning to end against slip moment; alone: 1 if the others at the same time have less than a "
+                         "tenth of its moment", f"PE rose during {(~fell).sum()} of {len(fell)} ruptures, which are not drawn", *said],
+                 "catalogue,label,event_id,moment,pe_drop,alone", rows,
+                 KEY + axis("x", MOMENT, moment[fell].min(), moment[fell].max(), True)
+                 + axis("y", "Drop of the total PE (model units)", drop[fell].min(), drop[fell].max(), True) + f"plot {', '.join(curves)}", size)  # yapf: disable
+
+    rows, curves = scatter(catalogues, lambda e, one: (e["slip_moment"], e["stress_drop"]))
+    rows = [[*row, math.nan, math.nan] for row in rows]
+    for number, (one, e) in enumerate(zip(catalogues, events), 1):
+        half = np.floor(2 * np.log10(e["slip_moment"]))
+        for bin in np.unique(half):
+            stress = e["stress_drop"][half == bin]
+            if len(stress) >= FEWEST:
+                rows.append([number, one.label, "", 10**(0.5 * (bin + 0.5)), math.nan, np.mean(stress), np.std(stress) / math.sqrt(len(stress) - 1)])
+        mine = f"table using ($1 == {number} && $6 == $6 ? $4 : NaN)"
+        curves += [f"{mine}:6 with lines lt 8 lw 1.6 {'' if number > 1 else 'title ' + quote('means of half decades')}" + " notitle" * (number > 1),
+                   f"{mine}:($6-$7):(0):(2*$7) with vectors nohead lt 8 lw 1.2 notitle"]  # yapf: disable
+    drops = np.concatenate([[0.0]] + [e["stress_drop"] for e in events])
+    room = 0.05 * np.ptp(drops)
+    yield Figure("-stress", ["mean stress drop against slip moment. Rows without event_id: means over two bins of the moment per decade, with their "
+                             "standard errors"], "catalogue,label,event_id,moment,stress_drop,mean,error", rows,
+                 KEY + axis("x", MOMENT, moment.min(), moment.max(), True)
+                 + axis("y", "Mean stress drop (model units)", drops.min() - room, drops.max() + room)
+                 + f"plot 0 with lines lt 8 lw 0.6 notitle, {', '.join(curves)}", size)  # yapf: disable
+
+
+# ---- the slip history
+
+
+class History:
+    """A slip history: places and widths of bins, times of records."""
+
+    def __init__(self, path):
+        self.path, self.records = path, lsm.read_slip(path)
+        head = self.records.header
+        need = ["x0", "bin", "step0", "time0", "dt", "interval", "slip_velocity", "driving", "modulus"]
+        try:
+            self.head = {key: float(head[key]) for key in need + ["z0", "bin_dip"] * self.plane}
+        except (KeyError, ValueError) as error:
+            raise ValueError(f"{path}: parameter {error}, expected a number") from None
+        self.x0, self.bin, self.bins = self.head["x0"], self.head["bin"], self.records["slip"].shape[1]
+        self.length, self.duration = self.bins * self.bin, self.head["interval"] * self.head["dt"]
+        self.begin, self.end = self.time(self.records["step_begin"]), self.time(self.records["step_end"])
+
+    @property
+    def plane(self):
+        return self.records["slip"].ndim == 4
+
+    def time(self, step):
+        return self.head["time0"] + (step - self.head["step0"]) * self.head["dt"]
+
+    def check(self, one):
+        """\\raises ValueError unless it is that of the run of a catalogue"""
+        if self.plane != one.plane:
+            kinds = ("on a plane", "line") if one.plane else ("along a line", "plane")
+            raise ValueError(f"{one.path}: ruptures {kinds[0]}, expected its slip history, found that of a {kinds[1]}")
+        mine, theirs = self.records.header, one.events.header
+        for key in ("seed", "length", "dt", "velocity"):
+            if key in mine and key in theirs and mine[key] != theirs[key]:
+                raise ValueError(f"{self.path}: {key} = {mine[key]}, but {theirs[key]} in {one.path}: expected files of the same run")
+
+
+def largest(one):
+    if not len(one.events):
+        raise ValueError(f"{one.path}: no events, expected at least one")
+    return one.events[np.argmax(one.events["slip_moment"])]
+
+
+def image(history, kept, begin, end, most_rows):
+    """Largest slip velocity over the driving velocity in each pixel between two times: rows of time x columns of places."""
+    rows = max(1, min(most_rows, math.ceil((end - begin) / history.duration - 1e-9)))
+    height, columns = (end - begin) / rows, min(history.bins, MOST_COLUMNS)
+    values, first = np.zeros((rows, columns)), np.arange(columns) * history.bins // columns
+    for k in kept[history.end[kept] > history.begin[kept]]:
+        low = max(0, math.floor((history.begin[k] - begin) / height + 1e-6))
+        high = min(rows, math.ceil((history.end[k] - begin) / height - 1e-6))
+        speed = np.maximum.reduceat(np.abs(history.records["slip"][k].astype(float)), first) / (history.end[k] - history.begin[k])
+        values[low:high] = np.maximum(values[low:high], speed / history.head["driving"])
+    return values, height, history.length / columns
+
+
+def pixels(values, x0, width, t0, height):
+    with np.errstate(divide="ignore"):
+        shades = np.maximum(0.0, np.log10(values))
+    return [[x0 + (c + 0.5) * width, t0 + (r + 0.5) * height, shade] for r, row in enumerate(shades.tolist()) for c, shade in enumerate(row)]
+
+
+def outline(history, event, shift=0):
+    """Closed lines of (place in bins from the left end, time) around where and when a rupture slipped: of each bin from its first to
+    its last interval. shift: bins by which the picture is shifted along the fault"""
+    slip = history.records["slip"]
+    inside = (history.records["step_begin"] >= event["step_start"]) & (history.records["step_end"] <= event["step_end"])
+    inside &= history.end > history.begin
+    first = round((event["x_begin"] - history.x0) / history.bin)
+    places = (first + np.arange(min(history.bins, round(event["rupture_length"] / history.bin)))) % history.bins
+    slides = np.abs(slip[inside][:, places]) > history.head["slip_velocity"] * history.duration
+    begin, end = history.begin[inside], history.end[inside]
+    parts, span = [], None
+    for place, when in zip((places - shift) % history.bins, slides.T):
+        at = np.flatnonzero(when)
+        span = (begin[at[0]], end[at[-1]]) if len(at) else span  # a bin in a gap has the times of the one before
+        if span is None:
+            continue
+        if not parts or place < parts[-1][-1][0]:  # it continues at the other end
+            parts.append([])
+        parts[-1].append((place, *span))
+    for part in parts:
+        line = [(place + right, low) for place, low, _ in part for right in (0, 1)]
+        line += [(place + right, high) for place, _, high in reversed(part) for right in (1, 0)]
+        yield line + line[:1]
+
+
+def line_figures(history, one, begin, end, speeds):
+    """\\raises ValueError without records or ruptures between these times"""
+    kept = np.flatnonzero((history.end >= begin) & (history.begin <= end))
+    if not len(kept) or history.begin[kept[0]] == history.end[kept[-1]]:
+        raise ValueError(f"{history.path}: nothing in the window of time")
+    begin, end = max(begin, history.begin[kept[0]]), min(end, history.end[kept[-1]])
+    inside = one._replace(events=one.events[(one.events["t_start"] >= begin) & (one.events["t_end"] <= end)])
+    event, x0, bin = largest(inside), history.x0, history.bin
+    along = axis("x", PLACE, x0, x0 + history.length)
+
+    order = np.argsort(-inside.events["slip_moment"], kind="stable")[:MOST_OUTLINES]
+    rows = []
+    for number, k in enumerate(order, 1):
+        for line in outline(history, inside.events[k]):
+            rows += [[number, x0 + place * bin, time] for place, time in line] + [["NaN"] * 3]
+    yield Figure("-spacetime-outlines", [f"outlines of the {len(order)} largest of {len(inside.events)} ruptures"], "curve,x,y", rows)
+    values, height, width = image(history, kept, begin, end, MOST_ROWS)
+    yield Figure("-spacetime", ["the largest slip velocity in each pixel, over the driving velocity"], "x,time,log10_velocity",
+                 pixels(values, x0, width, begin, height),
+                 "set datafile columnheaders\n" + VELOCITIES + along + axis("y", "Time (model units)", begin, end) + "set format y '%.7g'\nset key off\n"
+                 "plot table using 1:2:3 with image, base.'-outlines.csv' using 2:3 with lines lc rgb '#0072B2' lw 0.8", (1000, 800))  # yapf: disable
+
+    slip = np.cumsum(history.records["slip"][kept].astype(float), axis=0)
+    least = history.head["slip_velocity"] * history.duration
+    locked = (end - begin) / 60
+    every, due, rows = {False: locked, True: locked / 10}, {False: begin, True: begin}, []
+    number = 0
+    for k, total in zip(kept, slip):
+        one_interval = history.records["step_end"][k] - history.records["step_begin"][k] == history.head["interval"]
+        slips = bool(one_interval and np.abs(history.records["slip"][k]).max() > least)
+        time = history.end[k]
+        if time < due[slips]:
+            continue
+        number += 1
+        rows += [[number, time, int(slips), x0 + (b + 0.5) * bin, value] for b, value in enumerate(total.tolist())] + [["NaN"] * 5]
+        due[slips] = time + every[True] if slips else due[False] + locked * (math.floor((time - due[False]) / locked) + 1)
+    top = max(1.02 * slip.max(), 0.0) or 1.0
+    yield Figure("-lines", [f"slip since time {begin:.8g}, a line every {locked:.4g} while locked, every {every[True]:.4g} while anything slips"],
+                 "line,time,in_event,x,slip", rows, KEY + along + axis("y", f"Slip since time {begin:.8g} (model units)", 0.0, top)
+                 + f"plot table using ($3 == 1 ? $4 : NaN):5 with lines lc rgb '#D55E00' lw 0.6 title 'every {every[True]:.4g} time units while "
+                 f"anything slips', table using ($3 == 0 ? $4 : NaN):5 with lines lc rgb '#0072B2' lw 1.2 title 'every {locked:.4g} time units while "
+                 "the fault is locked'", (1000, 640))  # yapf: disable
+    yield from detail(history, event, speeds)
+
+
+def detail(history, event, speeds):
+    """One rupture: the slip velocity around its first place, the fronts of P- and S-waves from there, and its slip along the fault."""
+    bins, bin = history.bins, history.bin
+    shift = (math.floor((event["x_hypocentre"] - history.x0) / bin) - bins // 2) % bins  # the first place is in the middle
+    x0, start = -(bins // 2 + 0.5) * bin, event["t_start"]
+    room = 0.15 * (event["t_end"] - start)
+    kept = np.flatnonzero((history.end >= start - room) & (history.begin <= event["t_end"] + room))
+    begin, end = max(start - room, history.begin[kept[0]]), min(event["t_end"] + room, history.end[kept[-1]])
+    rows = []
+    for line in outline(history, event, shift):
+        rows += [[1, x0 + place * bin, time - start] for place, time in line] + [["NaN"] * 3]
+    for number, speed in enumerate(speeds, 2):
+        reach = min(0.5 * history.length, (end - start) * speed)
+        rows += [[number, x, abs(x) / speed] for x in (-reach, 0.0, reach)] + [["NaN"] * 3]
+    inside = (history.records["step_begin"] >= event["step_start"]) & (history.records["step_end"] <= event["step_end"])
+    slip = np.roll(history.records["slip"][inside].sum(axis=0, dtype=float), -shift)
+    rows += [[4, x0 + (b + 0.5) * bin, value] for b, value in enumerate(slip.tolist())]
+    yield Figure("-event-lines", ["curve 1: outline; 2: P-wave, 3: S-wave from the first place (x, time); 4: slip of the rupture (x, slip)"],
+                 "curve,x,y", rows)
+    values, height, width = image(history, kept, begin, end, 600)
+    values = np.roll(values, -(shift * values.shape[1] // bins), axis=1)
+    yield Figure(
+        "-event", [f"rupture {event['event_id']} from its first place {event['x_hypocentre']:.6g} and time {start:.8g}"], "x,time,log10_velocity",
+        pixels(values, x0, width, begin - start, height), f"""set datafile columnheaders
+{VELOCITIES}lines = base.'-lines.csv'
+set multiplot
+set lmargin at screen 0.12
+set rmargin at screen 0.83
+set bmargin at screen 0.36
+set tmargin at screen 0.915
+{axis("x", "", x0, x0 + history.length)}{axis("y", "Time since the rupture began (model units)", begin - start, end - start)}set format x ''
+set key at screen 0.47,0.985 center top horizontal maxcols 2
+plot table using 1:2:3 with image notitle, \\
+     lines using ($1 == 1 ? $2 : NaN):3 with lines lc rgb '#0072B2' lw 1 title 'rupture', \\
+     lines using ($1 == 2 ? $2 : NaN):3 with lines lc rgb '#000000' lw 1.6 title 'P-wave, speed {speeds[0]:g}', \\
+     lines using ($1 == 3 ? $2 : NaN):3 with lines lc rgb '#009E73' lw 1.8 dt (6,4) title 'S-wave, speed {speeds[1]:g}'
+set tmargin at screen 0.33
+set bmargin at screen 0.09
+set format x '%g'
+{axis("x", "Distance from the hypocentre along the fault (model units)")}{axis("y", "Slip (model units)")}set yrange [*:*]
+unset key
+plot 0 with lines lt 8 lw 0.6, lines using ($1 == 4 ? $2 : NaN):3 with histeps lc rgb '#0072B2' lw 1.4
+unset multiplot""", (900, 900))
+
+
+# ---- maps of a plane
+
+
+class Map:
+    """What one rupture did in the cells of the rectangle in which it slipped, (strike, dip): slip from begin to end; time since the begin
+    at which the slip velocity exceeds `least` for the first time, linear between the middles of the records, NaN where it never
+    does; rate: largest slip velocity; moment: (times, moment rates along strike and dip)."""
+
+    def __init__(self, history, event, least):
+        records, head = history.records, history.head
+        mine = (records["step_begin"] >= event["step_start"]) & (records["step_end"] <= event["step_end"]) & (history.end > history.begin)
+        if not mine.any() or records["step_end"][mine][-1] != event["step_end"]:
+            raise ValueError(f"{history.path}: does not have all of rupture {event['event_id']}, expected its slip until step {event['step_end']}")
+        axes = []
+        for n, (begin, size, hypocentre) in enumerate((("x_begin", "rupture_length", "x_hypocentre"), ("z_begin", "rupture_width", "z_hypocentre"))):
+            low, width, bins = (head["x0"], head["bin"], records["slip"].shape[1]) if n == 0 else (head["z0"], head["bin_dip"],
+                                                                                                   records["slip"].shape[2])
+            places = event[begin] + (np.arange(min(bins, max(1, round(event[size] / width)))) + 0.5) * width
+            first = event[hypocentre] + bins * width * (event[hypocentre] < event[begin])  # across the seam
+            axes.append((places, np.floor((places - low) / width + 1e-6).astype(int) % bins, first, width))
+        (self.x, strike, self.x_first, self.width), (self.z, dip, self.z_first, self.height) = axes
+        slip = records["slip"][mine][:, strike][:, :, dip].astype(float)
+        duration = (history.end - history.begin)[mine]
+        middle = 0.5 * (history.begin + history.end)[mine] - event["t_start"]
+        rates = np.hypot(slip[..., 0], slip[..., 1]) / duration[:, None, None]
+        total = slip.sum(axis=0)
+        self.slip, self.rate = np.hypot(total[..., 0], total[..., 1]), rates.max(axis=0)
+        if not self.rate.max() > least:
+            raise ValueError(f"{history.path}: rupture {event['event_id']} slips at {self.rate.max():.6g} at most, expected an arrival below it, "
+                             f"not {least:.6g}")
+        fast = rates > least
+        at = np.argmax(fast, axis=0)
+        # Before it began the rupture slipped nowhere, in the middle of the interval before it.
+        padded, times = np.concatenate([np.zeros_like(rates[:1]), rates]), np.concatenate([[-0.5 * history.duration], middle])
+        before, now = (np.take_along_axis(padded, (at + k)[None], axis=0)[0] for k in (0, 1))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = np.where(before < least, (least - before) / (now - before), 1.0)
+        self.time = np.where(fast.any(axis=0), np.maximum(0.0, times[at] + part * (times[at + 1] - times[at])), math.nan)
+        unit = head["modulus"] * head["bin"] * head["bin_dip"] / duration
+        self.moment = middle, unit * slip[..., 0].sum(axis=(1, 2)), unit * slip[..., 1].sum(axis=(1, 2))
+
+
+def contours(x, z, values, spacing):
+    """Pieces (level, x1, z1, x2, z2) of the contours at whole multiples of `spacing` of values at the middles of cells, linear on the two
+    triangles between each four of them, and absent where one is NaN."""
+    points = np.column_stack([np.repeat(x, len(z)), np.tile(z, len(x)), values.ravel()])
+    corner = (np.arange(len(x) - 1)[:, None] * len(z) + np.arange(len(z) - 1)).ravel()
+    triangles = np.concatenate([corner[:, None] + [0, 1, len(z)], corner[:, None] + [1, len(z), len(z) + 1]])
+    for triangle in triangles[np.isfinite(points[triangles, 2]).all(axis=1)]:
+        low, middle, high = points[triangle][np.argsort(points[triangle, 2], kind="stable")]
+        for k in range(math.floor(low[2] / spacing) + 1, math.floor(high[2] / spacing) + 1):
+            level = k * spacing
+            one, other = (low, middle) if level <= middle[2] else (middle, high)
+            ends = [a[:2] + (level - a[2]) / (b[2] - a[2]) * (b[:2] - a[:2]) for a, b in ((low, high), (one, other))]
+            if (ends[0] != ends[1]).any():
+                yield level, *ends[0].tolist(), *ends[1].tolist()
+
+
+def map_figure(plane, event, ending, values, column, label, script, more=""):
+    """A map with the hypocentre, in multiples of a power of 1000, as numbers with exponents have no room beside the colours."""
+    top = np.nanmax(values, initial=0.0)
+    power = 3 * math.floor(math.log10(top) / 3) if top > 0 else 0
+    unit = f"10^{{{power}}} model units" if power else "model units"
+    rows = [[plane.x[i], plane.z[k], "NaN" if math.isnan(values[i, k]) else values[i, k]] for k in range(len(plane.z)) for i in range(len(plane.x))]
+    length, width = len(plane.x) * plane.width, len(plane.z) * plane.height
+    x, z = plane.x[0] - 0.5 * plane.width, plane.z[0] - 0.5 * plane.height
+    return Figure(ending, [f"rupture {event['event_id']} from its first place {plane.x_first:.6g}, {plane.z_first:.6g} and time {event['t_start']:.8g}: {label}"],
+                  f"x,z,{column}", rows, "set datafile columnheaders\nset size ratio -1\nunset grid\nset key off\n"
+                  + axis("x", "Along strike (model units)", x, x + length) + axis("y", "Along dip, upwards (model units)", z, z + width)
+                  + f"set cblabel {quote(f'{label} ({unit})', True)} offset 1\n{script}plot table using 1:2:($3*1e{-power}) with image{more}, "
+                  f"'+' using ({plane.x_first}):({plane.z_first}) every ::::0 with points pt 3 ps 1.6*point lw 1.6 lc rgb '#0072B2'",
+                  (1000, 160 + int(np.clip(740 * width / length, 200, 900))))  # yapf: disable
+
+
+def plane_figures(history, one, begin, end, arrival):
+    event = largest(one._replace(events=one.events[(one.events["t_start"] >= begin) & (one.events["t_end"] <= end)]))
+    plane = Map(history, event, arrival or history.head["slip_velocity"])
+    yield map_figure(plane, event, "-slip", plane.slip, "slip", "Slip", FLAME + "set cbrange [0:*]\n")
+    least = (np.nanmax(plane.time, initial=0.0) or 1.0) / 12
+    spacing = next(d * 10.0**n for n in (math.floor(math.log10(least)), math.floor(math.log10(least)) + 1) for d in (1, 2, 5) if d * 10.0**n >= least)
+    pieces = [list(piece) for piece in contours(plane.x, plane.z, plane.time, spacing)]
+    yield Figure("-time-contours", [f"contours of the time since the rupture began, every {spacing:g}"], "time,x1,z1,x2,z2", pieces)
+    ends = {}  # each contour has its time where it is farthest along strike
+    for level, *piece in pieces:
+        ends[level] = max(ends.get(level, (-math.inf, 0.0)), tuple(piece[:2]), tuple(piece[2:]))
+    script = "set palette defined (0 '#f7fbff', 1 '#9ecae1', 2 '#3182bd', 3 '#08306b')\nset style textbox opaque noborder margins 0.3,0.3\n"
+    script += "".join(f"set label {quote(f'{{/*0.8 {level:g}}}', True)} at {x},{z} center front boxed\n" for level, (x, z) in ends.items())
+    yield map_figure(plane, event, "-time", plane.time, "time", "Time since the rupture began", script,
+                     ", base.'-contours.csv' using 2:3:($4-$2):($5-$3) with vectors nohead lc rgb '#000000' lw 1")
+    yield map_figure(plane, event, "-rate", plane.rate, "peak_slip_rate", "Largest slip velocity", FLAME + "set cbrange [0:*]\n")
+    time, along, down = plane.moment
+    yield Figure("-momentrate", [f"rupture {event['event_id']}: time since it began, {event['t_start']:.8g}, moment per time"],
+                 "time,moment_rate,along_strike,along_dip", list(zip(time, np.hypot(along, down), along, down)), "set datafile columnheaders\n" + KEY
+                 + axis("x", "Time since the rupture began (model units)", 0.0, event["t_end"] - event["t_start"]) + axis("y", "Moment rate (model units)")
+                 + "plot table using 1:2 with lines lc rgb '#bbbbbb' lw 5 title 'length of both', table using 1:3 with lines lt 1 title 'along strike', "
+                 "table using 1:4 with lines lt 2 title 'along dip'")  # yapf: disable
+
+
+# ---- the program
+
+
+def write(base, figures, inputs, picture):
+    """Writes tables and pictures; nothing if a table would replace a file of something else. \\raises ValueError"""
+    for one in figures:
+        path = Path(f"{base}{one.ending}.csv")
+        if path.exists() and (any(path.samefile(name) for name in inputs) or not path.read_bytes().startswith(f"# {MADE}".encode())):
+            raise ValueError(f"{path} exists and is not from an earlier run of this program, expected another -o")
+    for one in figures:
+        with open(f"{base}{one.ending}.csv", "w", newline="", encoding="utf-8") as file:
+            file.writelines(f"# {line}\n" for line in [MADE + one.comments[0], *one.comments[1:]])
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(one.names.split(","))
+            table.writerows([("" if cell != cell else f"{cell:.12g}") if isinstance(cell, float) else cell for cell in row] for row in one.rows)
+    for one in figures:
+        if one.script and picture:
+            draw(f"{base}{one.ending}", one.script, *one.size)
+        print(f"wrote {base}{one.ending}.csv" + ", .png, .svg" * bool(one.script and picture))
+
+
+def main(catalogues, label, history, begin, end, p_speed, s_speed, arrival, output, no_picture):
+    if label and len(label) != len(catalogues):
+        raise ValueError(f"--label {len(label)} times, expected once for each of {len(catalogues)} catalogues")
+    if not begin < end or not (arrival is None or arrival > 0) or not (p_speed > 0 and s_speed > 0):
+        raise ValueError("expected --from before --to, and --arrival, --p-speed and --s-speed above 0")
+    loaded = [load(path, label[n] if label else None, begin, end) for n, path in enumerate(catalogues)]
+    for one in loaded:
+        moments, lengths = one.events["slip_moment"], one.events["rupture_length"]
+        print(f"{one.label}: {len(moments)} ruptures, moments in all {moments.sum():.6g}, largest {moments.max(initial=0):.4g}, "
+              f"longest {lengths.max(initial=0):.4g}")
+    figures = []
+    if history:
+        slip = History(history)
+        slip.check(loaded[0])
+        figures += plane_figures(slip, loaded[0], begin, end, arrival) if slip.plane else line_figures(slip, loaded[0], begin, end,
+                                                                                                       (p_speed, s_speed))
+    try:
+        figures += [density_figure(loaded, "-lengths", "rupture_length"), density_figure(loaded, "-moments", "slip_moment"), *relations(loaded)]
+    except ValueError as error:
+        if not history or not slip.plane:  # a rupture of a plane is often the only one of its run
+            raise
+        print(f"no figures of all ruptures: {error}")
+    write(output, figures, [*catalogues, *([history] if history else [])], not no_picture)
+
+
+def parser():
+    options = argparse.ArgumentParser(prog="python3 -m lsm.ruptures", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
+    options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
+    options.add_argument("--history", metavar="FILE", help="slip history of the first catalogue's run")
+    options.add_argument("--from", dest="begin", type=float, default=-math.inf, metavar="TIME", help="leave out what starts before (model time)")
+    options.add_argument("--to", dest="end", type=float, default=math.inf, metavar="TIME", help="leave out what starts at this time or later")
+    options.add_argument("--p-speed", type=float, default=2.12, help="speed of P-waves (paper, Eq. 4: %(default)s, the regular lattice)")
+    options.add_argument("--s-speed", type=float, default=1.22, help="speed of S-waves (Eq. 5: %(default)s)")
+    options.add_argument(
+        "--arrival", type=float, help="slip velocity above which the rupture has come to a place of a plane, for the map of times; "
+        "default: that above which places slip")
+    options.add_argument("-o", "--output", default="ruptures", metavar="BASE", help="files are BASE-NAME.csv, .png and .svg")
+    options.add_argument("--no-picture", action="store_true", help="tables only")
+    return options
+
+
+if __name__ == "__main__":
+    try:
+        main(**vars(parser().parse_args()))
+    except (OSError, ValueError) as error:
+        sys.exit(f"lsm.ruptures: {error}")
