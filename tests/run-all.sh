@@ -15,6 +15,6 @@ install_debian_packages $lammps_packages $plot_packages $postproc_packages $test
 need_programs cmake ninja c++ mpirun gnuplot python3
 # All ways of using the package need a LAMMPS of our own.
 cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON \
-  -DLSM_BUILD_TESTS=ON -DLSM_LAMMPS_LIBRARY=
+  -DLSM_BUILD_TESTS=ON -DLSM_JOIN_SOURCES=ON -DLSM_LAMMPS_LIBRARY=
 cmake --build "$build"
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" "$@"

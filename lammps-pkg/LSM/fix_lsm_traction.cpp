@@ -21,7 +21,7 @@
 
 using namespace LAMMPS_NS;
 
-enum { LOWER, UPPER };
+enum { BELOW, ABOVE };
 // largest distance of two discs that face each other, in sums of their radii, in total and along
 // the fault
 static constexpr double FACING = 1.2;
@@ -45,7 +45,7 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
                  word[0] == 'd' ? 3 : 2, domain->dimension);
   if (modify->get_fix_by_style("^lsm/traction").size() > 0)
     error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
-  for (int s : {LOWER, UPPER}) {
+  for (int s : {BELOW, ABOVE}) {
     const int which = group->find(arg[3 + s]);
     if (which < 0)
       error->all(FLERR, "Fix lsm/traction {} group '{}' does not exist", s ? "upper" : "lower",
@@ -195,10 +195,10 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   const std::vector<double> dip = evaluate(traction[DIP]);
   const int *const mask = atom->mask;
   const double *const radius = atom->radius;
-  const std::vector<double> share[2] = {shares(LOWER), shares(UPPER)};
+  const std::vector<double> share[2] = {shares(BELOW), shares(ABOVE)};
   std::vector<int> face[2];
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    for (int s : {LOWER, UPPER})
+    for (int s : {BELOW, ABOVE})
       if (mask[i] & side[s]) face[s].push_back(i);
   widest_radius = 0.0;
   for (auto &of_side : face) {
@@ -211,7 +211,7 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
     contact_radius[i] = radius[i];
     load[NORMAL][i] = load[SHEAR][i] = 0.0;
     if (load[DIP]) load[DIP][i] = 0.0;
-    for (int s : {LOWER, UPPER}) {
+    for (int s : {BELOW, ABOVE}) {
       if (!(mask[i] & side[s])) continue;
       const int j = partner(i, face[1 - s]);
       const double k = pair->stiffness(atom->type[i], atom->type[j]);
@@ -265,9 +265,9 @@ void FixLSMTraction::post_force(int /*vflag*/)
   double **f = atom->f;
   double work = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    for (int s : {LOWER, UPPER}) {
+    for (int s : {BELOW, ABOVE}) {
       if (!(atom->mask[i] & side[s])) continue;
-      const double up = s == UPPER ? 1.0 : -1.0;
+      const double up = s == ABOVE ? 1.0 : -1.0;
       const double fx = up * load[SHEAR][i], fy = -up * load[NORMAL][i];
       f[i][0] += fx;
       f[i][1] += fy;

@@ -59,7 +59,7 @@ configure_programs() {
   [ ! -f "$2/build.ninja" ] && [ ! -f "$2/Makefile" ] || return 0
   debian_lammps
   packages_took=$SECONDS
-  cmake -S "$1" -B "$2" -G Ninja ${lammps_library:+"-DLSM_LAMMPS_LIBRARY=$lammps_library"}
+  cmake -S "$1" -B "$2" -G Ninja -DLSM_JOIN_SOURCES=ON ${lammps_library:+"-DLSM_LAMMPS_LIBRARY=$lammps_library"}
 }
 
 # Says in one line why BUILD cannot be a build folder of SOURCE: another checkout's would be built.

@@ -19,7 +19,7 @@ namespace {
 /// UTC date with microseconds, or "" outside the years that the readers of the format know.
 /// \param seconds since `start`
 /// \param start in seconds since 1970
-std::string date_text(double seconds, std::int64_t start, int last_year) {
+std::string utc_text(double seconds, std::int64_t start, int last_year) {
   // Keeps the integers below from overflowing. 1e12 s is longer than all valid years.
   if (!(std::fabs(seconds) < 1e12)) return {};
   const date::sys_time<std::chrono::microseconds> at(
@@ -198,7 +198,7 @@ class Export : public CatalogueAnalysis {
     if (!models) return out;
     const double second = unit_ ? *unit_ : magnitudes_.units.units().time();
     return out + fmt::format("{}; a unit of time is {} s; time 0 is {}\n", magnitudes_.text(),
-                             short_number(second), date_text(0.0, start, 9999).substr(0, 19));
+                             short_number(second), utc_text(0.0, start, 9999).substr(0, 19));
   }
 
   Results find() override {
@@ -239,7 +239,7 @@ class Export : public CatalogueAnalysis {
       const double bin = catalogues.magnitude_bin.value_or(0.0);
       const auto use = [&](const ReadEvent &event) {
         if (const Earthquake *const quake = event.earthquake) {
-          const std::string date = date_text(quake->time * 86400.0, 0, format->last_year);
+          const std::string date = utc_text(quake->time * 86400.0, 0, format->last_year);
           if (date.empty())
             throw std::runtime_error(fmt::format(
                 "{}: event {} is outside the years 1700 to {} that this --format can have", path,
@@ -252,7 +252,7 @@ class Export : public CatalogueAnalysis {
           ++without;
           return;
         }
-        const std::string date = date_text(event.t_start * second, start, format->last_year);
+        const std::string date = utc_text(event.t_start * second, start, format->last_year);
         if (date.empty())
           throw std::runtime_error(
               fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "

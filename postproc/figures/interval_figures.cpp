@@ -158,8 +158,6 @@ Figure cuts_figure(const std::vector<IntervalCurve> &curves) {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
   const GeneralisedGammaFit &fit = of.fit;
   Table1Row row;
@@ -225,7 +223,9 @@ Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
   table.show("", source);
   table.show("", [](auto &line) { return line.ours.from; });
   table.show("", method);
-  table.data("threshold", [](auto &line) { return line.printed ? nan : line.ours.threshold; });
+  table.data("threshold", [](auto &line) {
+    return line.printed ? std::numeric_limits<double>::quiet_NaN() : line.ours.threshold;
+  });
   table.column("n", "times",
                [](auto &line) { return line.printed ? Cell(std::string()) : Cell(line.ours.n); });
   table.column("gamma", "γ", parameter(0), 4, true);

@@ -17,12 +17,12 @@ namespace {
 
 /// Adds the numbers of a fit to its JSON object, or the reason why there are none.
 template <class Fit>
-void add_numbers(json &out, const Fit &fit, const json &numbers) {
+void add_numbers(json &out, const Fit &fit, const json &found) {
   out["degenerate"] = fit.degenerate;
   if (fit.degenerate)
     out["why"] = fit.why;
   else
-    out.update(numbers);
+    out.update(found);
 }
 
 /// "0.001 to 1", with a mark if search_range() found the range.

@@ -149,13 +149,13 @@ namespace {
 
 json events_json(const ExploreEvents &kind, PageData &data) {
   const EventTable &table = kind.table;
-  std::vector<double> numbers;
+  std::vector<double> cells;
   json names = json::array();
   for (const CatalogueColumn &column : columns_of(table.info)) {
     names.push_back(column.name);
     for (const Event &event : table.details)
-      numbers.push_back(column.number ? event.*column.number
-                                      : static_cast<double>(event.*column.integer));
+      cells.push_back(column.number ? event.*column.number
+                                    : static_cast<double>(event.*column.integer));
   }
   const SmallestSize usual = Threshold().of(table);
   return {{"kind", table.kind() == "pe" ? "drops" : table.kind()},
@@ -163,7 +163,7 @@ json events_json(const ExploreEvents &kind, PageData &data) {
           {"count", table.events.size()},
           {"listed", table.details.size()},
           {"columns", names},
-          {"numbers", data.add(numbers)},
+          {"numbers", data.add(cells)},
           {"densities", bins_json(log_histogram(column(table.events, &Event::size)))},
           {"usual", usual.size},
           {"usualText", text(usual)},

@@ -291,8 +291,9 @@ void Table::write(const std::string &path) const { write_file(path, csv()); }
 
 std::string valid_utf8(std::string_view text) {
   // The writer of JSON is what repairs texts.
-  const nlohmann::json json = text;
-  return nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  const nlohmann::json as_json = text;
+  return nlohmann::json::parse(
+      as_json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string html_escape(std::string_view raw) {

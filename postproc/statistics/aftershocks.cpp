@@ -20,7 +20,7 @@ namespace LSM::postproc {
 
 namespace {
 
-constexpr std::int64_t fewest = 20;
+constexpr std::int64_t fewest_aftershocks = 20;
 
 // Integral of (t + c)^-p from a to b, accurate also for p near 1.
 double omori_integral(double a, double b, double c, double p) {
@@ -360,10 +360,10 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
     fit.constant = static_cast<double>(fit.n) / exposure;
     fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / exposure;
   }
-  if (fit.n < fewest)
+  if (fit.n < fewest_aftershocks)
     return without_numbers(fit, std::to_string(fit.n) + " events after " +
                                     std::to_string(s.main_shocks) + " main shocks, at least " +
-                                    std::to_string(fewest) + " events needed");
+                                    std::to_string(fewest_aftershocks) + " events needed");
   const Likelihood likelihood(s);
   // With c far below the shortest time the laws are indistinguishable, hence the lower limit of c.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);

@@ -15,15 +15,15 @@ namespace LSM::postproc {
 
 namespace {
 
-constexpr std::int64_t fewest = 10;
+constexpr std::int64_t fewest_magnitudes = 10;
 
 // b from all values, which are at or above `least`; `what` names them in messages.
 BValue estimate(const std::vector<double> &values, double least, double width, const char *what) {
   BValue result;
   result.n = static_cast<std::int64_t>(values.size());
-  if (result.n < fewest)
+  if (result.n < fewest_magnitudes)
     return without_numbers(result, std::to_string(result.n) + " " + what + ", at least " +
-                                       std::to_string(fewest) + " needed");
+                                       std::to_string(fewest_magnitudes) + " needed");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*low == *high) return without_numbers(result, std::string("all ") + what + " are equal");
   const double n = static_cast<double>(values.size());

@@ -44,7 +44,7 @@ def test_fault_120(on_ranks, postproc):
 
 
 def test_the_first_command_has_enough_of_lammps(lmp, work):
-    """lmp_fault, for which half of LAMMPS is compiled, gives the bytes of lmp, and says what it lacks."""
+    """lmp_fault, for which two fifths of LAMMPS are compiled, gives the bytes of lmp, and says what it lacks."""
     small = Program.built("lmp_fault", "-log", "none", env=lmp.env, errors=lmp.errors)
     for name, program in ("whole", lmp), ("small", small):
         (work / name).mkdir()
