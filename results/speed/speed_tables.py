@@ -52,7 +52,7 @@ def speed_peers_table():
 
 def speed_lengths_table():
     out = []
-    for table, lengths in ("lengths", (120, 945, 1890, 3780)), ("paper", (480,)):
+    for table, lengths in ("lengths", (120, 945, 1890, 3780)), ("paper", (1890,)):
         found = timings(table)
         for label, length in dict.fromkeys(key[:2] for key in found):
             one, two = found.get((label, length, 1)), found.get((label, length, 2))
