@@ -496,10 +496,26 @@ def slider_table():
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
-    head = [f"fitted: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", "here", "agrees at"]
+    head = [
+        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})", "paper", "here",
+        "agrees at"
+    ]
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
     return table(head, [blocks] + [[one.name, one.text, ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
                                    for one, n in zip(statements, met)])
+
+
+def slider_velocity_table():
+    """The block-slider over the velocity of its plate, at all lengths."""
+    fixed = {"scheme": "printed", "dt": "0.01", "picker": "exponential", "picker-lambda": "0.99", "warmup": "0", "smallest": "0.0001"}
+    rows = [row for row in read(SLIDERS) if all(row[key] == value for key, value in fixed.items())]
+    groups = grouped(sorted(rows, key=lambda row: (float(row["velocity"]), int(row["blocks"]))), lambda row: row["velocity"])
+
+    told = [one for one in calibrate.SLIDER_STATEMENTS if one.name != "large"]
+    blocks = ", ".join(row["blocks"] for row in groups["0.01"])
+    paper = ["paper", *(one.text for one in told)]
+    return table([f"velocity, each for {blocks} blocks", *(one.name for one in told)],
+                 [paper] + [[velocity, *(", ".join(shown(one.value(row)) for row in rows) for one in told)] for velocity, rows in groups.items()])
 
 
 def ground_table():

@@ -7,7 +7,8 @@ calibrate.py propose OUT.csv LENGTH N [POINTS.csv]   adds N points to the table 
 calibrate.py collect BIN POINTS.csv FOLDER...   numbers of runs of a study, one row for each run and memory of the picker; rows of other runs
                                              that the file has stay
 calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, what they predict, OUT.statements.csv, and OUT.png and .svg
-calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up
+calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up; rows of other
+                                             runs that the file has stay
 
 results/tables.py makes the tables of results/calibration.md of the same statements.
 
@@ -40,7 +41,8 @@ RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
 
-SLIDER_KEYS = ("scheme", "dt", "picker", "picker-lambda", "picker-memory-time", "warmup", "smallest")
+SLIDER_SETTINGS = {"blocks": "", "scheme": "", "dt": "", "picker": "", "picker-lambda": "", "picker-memory-time": "", "velocity": "0.01"}
+SLIDER_KEYS = (*list(SLIDER_SETTINGS)[1:], "warmup", "smallest")
 SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
 
 
@@ -307,10 +309,13 @@ def write(output, comment, rows):
 
 
 def collect_sliders(binaries, output, folders):
-    rows = []
+    rows = read(output) if Path(output).exists() else []
+    there = {tuple(row[key] for key in SLIDER_SETTINGS) for row in rows}
     for folder in map(Path, folders):
         words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
-        settings = {key: words.get(key, "") for key in ("blocks", "scheme", "dt", "picker", "picker-lambda", "picker-memory-time")}
+        settings = {key: words.get(key, silent) for key, silent in SLIDER_SETTINGS.items()}
+        if tuple(settings.values()) in there:
+            continue
         for warmup in SLIDER_WARMUPS:
             said = subprocess.run([
                 Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from",
