@@ -7,6 +7,7 @@ slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
 slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
+slip_or_exchange.py quality OUT.csv RUN...          how fast blocks that were glued together stop ringing, with their quality factor
 slip_or_exchange.py kinetic OUT.csv RUN...          mean kinetic energy in each 2000 time units, of the RUN.energy.txt of extra=fault_energy
 slip_or_exchange.py motion OUT.csv RUN              kinetic energy by period and by radius of the disc, of the RUN.STEP.dump of extra=fault_dump
 slip_or_exchange.py figure OUT RUN FROM TO RUN FROM TO   a stretch of two runs: OUT.png and OUT.svg
@@ -281,8 +282,30 @@ def decides(base, points):
     draw(base, script + "unset multiplot", 1100, 760)
 
 
+RINGING = 33.0  # period of the blocks between the plates
+
+
+def quality(output, *runs):
+    """Decay of PE's amplitude in stretches of two periods, until it is less than 0.3 of the first one, before waves that nothing damps are left."""
+    rows, length = [], 2 * RINGING
+    for run in runs:
+        series = lsm.read_series(f"{run}.pe.bin")
+        time, n = series["time"], int(length / (series["time"][1] - series["time"][0]))
+        stretches = series["pe"][:len(time) // n * n].reshape(-1, n)
+        x = np.arange(n) - 0.5 * (n - 1)
+        slopes = stretches @ x / (x @ x)
+        amplitude = np.std(stretches - np.outer(slopes, x), axis=1)
+        last = next((k for k, a in enumerate(amplitude) if a < 0.3 * amplitude[0]), len(amplitude))
+        rate = -np.polyfit(length * np.arange(last), np.log(amplitude[:last]), 1)[0]
+        rows.append(
+            dict(viscosity=float(series.header["viscosity"]), impedance=float(series.header["impedance"]), first=amplitude[0], second=amplitude[1],
+                 fourth=amplitude[3], stretches=last, rate=rate, quality=np.pi / (RINGING * rate)))
+    comment = "Glued blocks: amplitude of PE in stretches of 66 time units, rate at which it decays in so many, quality factor at a period of 33"
+    write_table(output, [f"{comment} (slip_or_exchange.py quality)"], rows)
+
+
 if __name__ == "__main__":
-    commands = dict(kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies,
+    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies,
                     switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)

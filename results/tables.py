@@ -403,6 +403,30 @@ def width_table():
     return table(["width", *keys], [[width, *(over(rows, key) for key in keys.values())] for width, rows in groups.items()])
 
 
+def quality_table():
+    """How fast glued blocks stop ringing."""
+    columns = {"viscosity, impedance": lambda row: f"{float(row['viscosity']):g}, {float(row['impedance']):g}"}
+    columns |= {"amplitude in the first 66 time units": "first", "second": "second", "fourth": "fourth", "Q": "quality"}
+    ringing = 2 * math.pi / 33
+    columns |= {"by its viscosity": lambda row: shown(ringing / float(row["viscosity"])) if float(row["viscosity"]) else "-"}
+    return study_table("damping/quality.csv", columns)
+
+
+def crossing_table():
+    """Events that begin while waves of an earlier, larger one cross the blocks."""
+    out, crossing, kinds = [], 30 / calibrate.WAVE_SPEED["r2"], (("hardly damped", DAMPING, "4"), ("damped, plates absorb", CAMPAIGN, "1"))
+    for name, folder, packing in kinds:
+        for length in ("120", "240", "480", "945"):
+            found = catalogues.lsm.read_catalogue(folder / f"fault_{length}_{packing}.catalogue.csv.xz")
+            found = found[(found["size"] >= 1e-4) & (found["t_start"] >= calibrate.LOADING)]
+            ends, span = found["t_end"][found["size"] >= 1e-2], found["t_end"][-1] - found["t_start"][0]
+            after = ends.searchsorted(found["t_start"], "right")
+            near = sum(bool(k) and start - ends[k - 1] < crossing for k, start in zip(after, found["t_start"]))
+            by_chance = 1 - math.exp(-crossing * len(ends) / span)
+            out.append([f"{name}, {length}, {packing}", str(len(found)), shown(span / len(ends)), shown(near / len(found)), shown(by_chance)])
+    return table(["fault, length, packing", "events", "one of 0.01 or more in", "share that begins within a crossing after one", "by chance"], out)
+
+
 def kinds_table():
     """Events by size: frictional work and slip within them."""
     names = {"damped": "damped, plates absorb", "fault": "hardly damped"}

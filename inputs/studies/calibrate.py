@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which values of what the paper does not print give the statements that it does.
 
-calibrate.py propose OUT.csv LENGTH N [POINTS.csv]   adds N points to the table of a study, from the prior or, with the numbers of points that
-                                             were run, a quarter from it and the others from the posterior of a surrogate
+calibrate.py propose OUT.csv LENGTH N [POINTS.csv [NAME,...]]   adds N points to the table of a study, from the prior or, with the numbers of
+                                             points that were run, a quarter from it and the others from the posterior of a surrogate;
+                                             with names of statements, all from what these make likely, whether printed or not
 calibrate.py collect BIN POINTS.csv FOLDER...   numbers of runs of a study, one row for each run and memory of the picker; rows of other runs
                                              that the file has stay
 calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, what they predict, OUT.statements.csv, and OUT.png and .svg
@@ -385,7 +386,7 @@ class Surrogate:
         return {one.name: self.fits[one.name].predict(at, return_std=True) for one in self.statements}
 
 
-def sampled(rows, seed, statements=STATEMENTS, count=None):
+def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
     """(cube, memory, settings, predictions at the two lengths, logarithm of the likelihood) of samples of the prior, and the surrogate."""
     import numpy as np
     statements, count = [one for one in statements if one.name != "waves"], count or SAMPLES
@@ -397,7 +398,7 @@ def sampled(rows, seed, statements=STATEMENTS, count=None):
     for length in ("120", "480"):
         at = np.array([coordinates({"impedance": "", **one, "memory": m, "length": length}) for one, m in zip(words, memory)])
         found[length] = surrogate.predict(at)
-        for one in printed(statements):
+        for one in wanted or printed(statements):
             mean, error = found[length][one.name]
             low, high = one.interval()
             off, tolerance = np.maximum(0.0, np.maximum(low - mean, mean - high)), np.hypot(one.tolerance, error)
@@ -409,20 +410,22 @@ def sampled(rows, seed, statements=STATEMENTS, count=None):
     return cube, memory, words, found, log, surrogate
 
 
-def propose(output, length, count, points=None):
+def propose(output, length, count, points=None, names=None):
     from scipy.stats import qmc
     import numpy as np
     output, count = Path(output), int(count)
     lines = output.read_text().splitlines() if output.exists() else []
-    n = sum(1 for line in lines if line.startswith("p"))  # points there
-    cubes = list(qmc.Sobol(len(UNPRINTED), seed=2026).random(1024)[n:n + (count // 4 if points else count)])
+    wanted = names and [STATEMENTS_BY_NAME[name] for name in names.split(",")]
+    kind = "s" if wanted else "p"
+    n = sum(1 for line in lines if line.startswith(kind))  # points there
+    cubes = [] if wanted else list(qmc.Sobol(len(UNPRINTED), seed=2026).random(1024)[n:n + (count // 4 if points else count)])
     if points:
-        cube, *_, log, _ = sampled(completed(points), n, printed())
+        cube, *_, log, _ = sampled(completed(points), n, wanted or printed(), wanted=wanted)
         weight = np.exp(0.5 * (log - log.max()))  # a wider one, since the surrogate is not exact
         cubes += list(cube[np.random.default_rng(n).choice(len(cube), count - len(cubes), replace=False, p=weight / weight.sum())])
     for k, one in enumerate(cubes):
         words = " ".join(f"{key}={value}" for key, value in settings_of(one).items())
-        lines.append(f"p{n + k:03d},fault,{length},1,{STEPS},{RUN} {words}")
+        lines.append(f"{kind}{n + k:03d},fault,{length},1,{STEPS},{RUN} {words}")
     output.write_text("\n".join(lines) + "\n")
 
 

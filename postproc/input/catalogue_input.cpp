@@ -181,17 +181,38 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
   table.completeness_path = path;
   if (options.bins_for_models) table.bins.width = options.magnitude_bin.value_or(0.0);
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
-  const EventConditions where(options.where, table.info, path);
+  EventConditions where(options.where, table.info, path);
   begin(table);
-  ReadEvent event;
-  while (reader.next(event)) {
+  const auto take = [&](ReadEvent &event) {
     if (!where.hold(event)) {
       ++table.left_out_where;
-      continue;
+      return;
     }
     event.t_start *= unit;
     event.t_end *= unit;
     choose(event, options.from_time, options.to_time, options, table, use);
+  };
+  ReadEvent event;
+  std::vector<ReadEvent> all;  // if all have to be known first
+  while (reader.next(event)) {
+    if (where.needs_friction_rate())
+      all.push_back(event);
+    else
+      take(event);
+  }
+  if (where.needs_friction_rate()) {
+    const auto within = [&](const ReadEvent &one) {
+      const double time = one.t_start * unit;
+      return !is_before(time, options.from_time) && is_before(time, options.to_time);
+    };
+    const auto first = std::find_if(all.begin(), all.end(), within);
+    const auto last = std::find_if(all.rbegin(), all.rend(), within);
+    if (first == all.end() || !(last->t_end > first->t_end))
+      throw FileError(path +
+                      ": fewer than two events from --from to --to, expected two or more "
+                      "for --where excess");
+    where.set_friction_rate(*first, *last);
+    std::for_each(all.begin(), all.end(), take);
   }
   table.skipped_lines = reader.skipped();
   table.repairs = reader.repairs();

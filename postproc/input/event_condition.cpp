@@ -37,7 +37,8 @@ EventCondition parse_condition(const std::string &text) {
 
 EventConditions::EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
                                  const std::string &path) {
-  const std::vector<CatalogueColumn> columns = columns_of(info);
+  std::vector<CatalogueColumn> columns = columns_of(info);
+  if (info.friction) columns.push_back({"excess"});
   for (const std::string &text : texts) {
     const EventCondition condition = parse_condition(text);
     const auto found = std::find_if(
@@ -51,15 +52,24 @@ EventConditions::EventConditions(const std::vector<std::string> &texts, const Ca
                                   condition.column, names));
     }
     all_.push_back({condition, *found});
+    if (condition.column == "excess") needs_friction_rate_ = true;
   }
+}
+
+void EventConditions::set_friction_rate(const Event &first, const Event &last) {
+  friction_rate_ = (last.friction_total - first.friction_total) / (last.t_end - first.t_end);
+}
+
+double EventConditions::One::of(const Event &event, double friction_rate) const {
+  if (column.number) return event.*column.number;
+  if (column.integer) return static_cast<double>(event.*column.integer);
+  return (event.friction_work - friction_rate * (event.t_end - event.t_start)) / event.size;
 }
 
 bool EventConditions::hold(const Event &event) const {
   using Is = EventCondition::Is;
-  return std::all_of(all_.begin(), all_.end(), [&event](const One &one) {
-    const double value = one.column.number ? event.*one.column.number
-                                           : static_cast<double>(event.*one.column.integer);
-    const double number = one.condition.number;
+  return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
+    const double value = one.of(event, friction_rate_), number = one.condition.number;
     switch (one.condition.is) {
       case Is::less:
         return value < number;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_condition.h
-/// Conditions on the columns of a catalogue, as --where takes them: "peak_slip > 0.001".
+/// Conditions on the columns of a catalogue, as --where takes them: "peak_slip > 0.001". Where a
+/// catalogue has friction_work and friction_total, `excess` † counts as a column: the work of
+/// friction within the event, less that in as much time on the mean of all events, over the size.
+/// It is 1 if friction takes up what the springs lose, and 0 if it does no more than at any other
+/// time, so that the energy goes to the load of the plates or to waves.
 #ifndef LSM_POSTPROC_EVENT_CONDITION_H
 #define LSM_POSTPROC_EVENT_CONDITION_H
 
@@ -30,14 +34,21 @@ class EventConditions {
   /// \throws FileError if the catalogue does not have one of the columns
   EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
                   const std::string &path);
+  /// Whether one of the conditions needs set_friction_rate().
+  bool needs_friction_rate() const { return needs_friction_rate_; }
+  /// Sets the mean power of friction from that between the ends of the first and the last event.
+  void set_friction_rate(const Event &first, const Event &last);
   bool hold(const Event &event) const;
 
  private:
   struct One {
     EventCondition condition;
-    CatalogueColumn column;
+    CatalogueColumn column;  // without a member of an event: excess
+    double of(const Event &event, double friction_rate) const;
   };
   std::vector<One> all_;
+  bool needs_friction_rate_ = false;
+  double friction_rate_ = 0.0;
 };
 
 }  // namespace LSM::postproc

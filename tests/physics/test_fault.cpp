@@ -285,7 +285,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const auto catalogue = unit::read_catalogue(path("located.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
   std::size_t elsewhere = 0;
-  double lost = 0.0, moment = 0.0;
+  double lost = 0.0, moment = 0.0, taken_up = 0.0;
   const double first = catalogue.events[0].x_centroid;
   for (const auto &e : catalogue.events) {
     // Row n of the thermo table is that of step n.
@@ -294,6 +294,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     lost += r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
             r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
     moment += e.slip_moment;
+    taken_up += e.friction_work;
     // The length is a whole number of bins, of which the largest slip is at least the mean.
     EXPECT_EQ(e.rupture_length, std::round(e.rupture_length));
     EXPECT_GE(e.rupture_length, 1.0);
@@ -304,6 +305,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     EXPECT_LT(e.x_centroid, 40.0);
     if (std::fabs(e.x_centroid - first) > 1.0) ++elsewhere;
   }
+  EXPECT_NEAR(taken_up, lost, 0.01 * lost) << "the ledger's work of friction within the drops";
   EXPECT_GT(elsewhere, 0u) << "every event is at the same place";
   // The work is stress times slip times length, and the stress about 0.6 times 0.006.
   const double slip = moment / std::stod(*catalogue.info.find("modulus"));
@@ -321,6 +323,8 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     EXPECT_NEAR(a.peak_slip, b.peak_slip, 1e-6 * a.peak_slip);
     EXPECT_NEAR(std::remainder(a.x_centroid - b.x_centroid, 40.0), 0.0, 1e-3);
     EXPECT_EQ(a.rupture_length, b.rupture_length);
+    EXPECT_NEAR(a.friction_work, b.friction_work, 1e-5 * a.friction_work);
+    EXPECT_NEAR(a.friction_total, b.friction_total, 1e-5 * a.friction_total);
   }
 }
 

@@ -80,7 +80,8 @@ bool same(const LSM::Event &a, const LSM::Event &b) {
          a.moment_strike == b.moment_strike && a.moment_dip == b.moment_dip &&
          a.z_centroid == b.z_centroid && a.rupture_width == b.rupture_width &&
          a.rupture_area == b.rupture_area && a.z_hypocentre == b.z_hypocentre &&
-         a.z_begin == b.z_begin && a.peak_slip_rate == b.peak_slip_rate;
+         a.z_begin == b.z_begin && a.peak_slip_rate == b.peak_slip_rate &&
+         a.friction_work == b.friction_work && a.friction_total == b.friction_total;
 }
 
 Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
@@ -90,10 +91,10 @@ Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::E
     require(reader.info().model == "lsm" || reader.info().model == "block-slider", "known model");
     LSM::Event event;
     while (reader.next(event)) {
-      for (const double x :
-           {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end, event.slip_moment,
-            event.x_centroid, event.rupture_length, event.x_hypocentre, event.x_begin,
-            event.mean_slip, event.stress_drop, event.peak_slip})
+      for (const double x : {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end,
+                             event.slip_moment, event.x_centroid, event.rupture_length,
+                             event.x_hypocentre, event.x_begin, event.mean_slip, event.stress_drop,
+                             event.peak_slip, event.friction_work, event.friction_total})
         require(std::isfinite(x), "finite numbers");
       require(event.t_start <= event.t_end, "an event ends after its start");
       require(event.step_start <= event.step_end, "an event ends after its first step");

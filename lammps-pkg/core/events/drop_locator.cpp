@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -10,17 +11,26 @@
 
 namespace LSM {
 
+namespace {
+
+double work_of(const FaultRow &row) {
+  return std::accumulate(row.work.begin(), row.work.end(), 0.0);
+}
+
+}  // namespace
+
 DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
     : grid_(grid),
       centroid_(grid.strike()),
       modulus_(modulus),
       fraction_(fraction),
       end_(grid.step0),
-      open_(static_cast<std::size_t>(grid.bins), 0.0) {}
+      open_(grid.bins) {}
 
 void DropLocator::add(const Event &drop, const Report &report) {
   waiting_.push_back({drop, open_});
   forget_open();
+  waiting_.back().event.friction_total = work_;
   if (drop.step_end > end_) return;
   report(located(waiting_.back()));
   waiting_.pop_back();
@@ -31,41 +41,48 @@ void DropLocator::add_interval(std::int64_t step, const FaultRow &row,
   finish(step, row, report);
   if (begun) add_part(open_, *begun, step, step, row);
   end_ = step;
+  work_ += work_of(row);
 }
 
 void DropLocator::finish(std::int64_t step, const FaultRow &row, const Report &report) {
   for (Drop &drop : waiting_) {
-    add_part(drop.slip, drop.event.step_start, drop.event.step_end, step, row);
+    Sum until(grid_.bins);
+    add_part(drop.sum, drop.event.step_start, drop.event.step_end, step, row);
+    add_part(until, end_, drop.event.step_end, step, row);
+    drop.event.friction_total = work_ + until.work;
     report(located(drop));
   }
   waiting_.clear();
 }
 
-void DropLocator::add_part(std::vector<double> &slip, std::int64_t from, std::int64_t to,
-                           std::int64_t step, const FaultRow &row) const {
+void DropLocator::add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
+                           const FaultRow &row) const {
   const std::int64_t inside = std::min(to, step) - std::max(from, end_);
   if (inside <= 0) return;
   const double part = static_cast<double>(inside) / static_cast<double>(step - end_);
-  for (std::size_t b = 0; b < slip.size(); ++b) slip[b] += part * static_cast<double>(row.slip[b]);
+  for (std::size_t b = 0; b < sum.slip.size(); ++b)
+    sum.slip[b] += part * static_cast<double>(row.slip[b]);
+  sum.work += part * work_of(row);
 }
 
 Event DropLocator::located(const Drop &drop) const {
   Event e = drop.event;
   double sum = 0.0, largest = 0.0, cosines = 0.0, sines = 0.0;
-  for (std::size_t b = 0; b < drop.slip.size(); ++b) {
-    const double slip = drop.slip[b], size = std::fabs(slip);
+  for (std::size_t b = 0; b < drop.sum.slip.size(); ++b) {
+    const double slip = drop.sum.slip[b], size = std::fabs(slip);
     sum += slip;
     largest = std::max(largest, size);
     cosines += size * centroid_.cosine(b);
     sines += size * centroid_.sine(b);
   }
-  const auto ruptured = std::count_if(drop.slip.begin(), drop.slip.end(), [&](double slip) {
+  const auto ruptured = std::count_if(drop.sum.slip.begin(), drop.sum.slip.end(), [&](double slip) {
     return std::fabs(slip) > fraction_ * largest;
   });
   e.slip_moment = modulus_ * sum * grid_.width;
   e.x_centroid = centroid_.of(cosines, sines);
   e.rupture_length = static_cast<double>(ruptured) * grid_.width;
   e.peak_slip = largest;
+  e.friction_work = drop.sum.work;
   return e;
 }
 
@@ -80,9 +97,9 @@ void DropLocator::set_state(const std::vector<double> &saved) {
   DropLocator read = *this;
   StateReader in(saved);
   visit(read, in);
-  bool sane = in.left() == 0 && read.open_.size() == open_.size() &&
+  bool sane = in.left() == 0 && read.open_.slip.size() == open_.slip.size() &&
               (read.end_ - grid_.step0) % grid_.interval == 0;
-  for (const Drop &drop : read.waiting_) sane = sane && drop.slip.size() == open_.size();
+  for (const Drop &drop : read.waiting_) sane = sane && drop.sum.slip.size() == open_.slip.size();
   if (!sane) throw std::invalid_argument("saved slip of drops is inconsistent");
   *this = std::move(read);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/drop_locator.h
-/// How far a fault along a line slipped during drops of PE, and where † (the paper does not locate
-/// events).
+/// How far a fault along a line slipped during drops of PE, where, and what friction took up † (the
+/// paper does not locate events).
 #ifndef LSM_DROP_LOCATOR_H
 #define LSM_DROP_LOCATOR_H
 
@@ -17,7 +17,8 @@ namespace LSM {
 
 /// Slip of each bin from the begin to the end of a drop: the displacement of its faces, which is
 /// interpolated linearly within the interval in which the drop begins, and in that in which it
-/// ends. The slips of drops and of the times between them hence add up to the slip history.
+/// ends, as is the work of friction. Those of drops and of the times between them hence add up to
+/// the slip history.
 ///
 /// The end of a drop lies within an interval, so that it is reported when that interval is
 /// complete.
@@ -31,7 +32,7 @@ class DropLocator {
   /// Takes a drop that ended, in order of time.
   void add(const Event &drop, const Report &report);
   /// Forgets the drop that was open: it ended and is not written.
-  void forget_open() { open_.assign(open_.size(), 0.0); }
+  void forget_open() { open_ = Sum(grid_.bins); }
   /// Adds the interval that ends at a step.
   /// \param begun step at which the drop began that is open at its end, if one is
   void add_interval(std::int64_t step, const FaultRow &row, std::optional<std::int64_t> begun,
@@ -50,33 +51,45 @@ class DropLocator {
   void set_state(const std::vector<double> &saved);
 
  private:
+  /// What a fault did during a drop.
+  struct Sum {
+    explicit Sum(int bins = 0) : slip(static_cast<std::size_t>(bins), 0.0) {}
+    std::vector<double> slip;  // of each bin
+    double work = 0.0;         // of friction, on the whole fault
+    template <class Self, class State>
+    static void visit(Self &self, State &state) {
+      state.list(self.slip);
+      state(self.work);
+    }
+  };
   struct Drop {
     Event event;
-    std::vector<double> slip;  // of each bin
+    Sum sum;
     template <class Self, class State>
     static void visit(Self &self, State &state) {
       auto &e = self.event;
       state(e.id, e.t_start, e.t_end, e.step_start, e.step_end, e.size, e.pe_start, e.pe_end);
-      state.list(self.slip);
+      Sum::visit(self.sum, state);
     }
   };
   template <class Self, class State>
   static void visit(Self &self, State &state) {
-    state(self.end_);
-    state.list(self.open_);
+    state(self.end_, self.work_);
+    Sum::visit(self.open_, state);
     state.list(self.waiting_);
   }
 
   /// Adds the part of an interval from end_ to `step` that lies between two steps.
-  void add_part(std::vector<double> &slip, std::int64_t from, std::int64_t to, std::int64_t step,
+  void add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
                 const FaultRow &row) const;
   Event located(const Drop &drop) const;
 
   FaultGrid grid_;
   MeanPlace centroid_;
   double modulus_, fraction_;
-  std::int64_t end_;          // of the last complete interval
-  std::vector<double> open_;  // slip of the open drop until then
+  std::int64_t end_;   // of the last complete interval
+  double work_ = 0.0;  // of friction until then
+  Sum open_;           // of the open drop until then
   std::vector<Drop> waiting_;
 };
 

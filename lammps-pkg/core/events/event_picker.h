@@ -62,6 +62,7 @@ struct Event : EventSummary {
   double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
   double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
   double peak_slip = 0.0;
+  double friction_work = 0.0, friction_total = 0.0;  ///< of drops
   /// Of ruptures on a plane.
   double moment_strike = 0.0, moment_dip = 0.0, z_centroid = 0.0, rupture_width = 0.0,
          rupture_area = 0.0, z_hypocentre = 0.0, z_begin = 0.0, peak_slip_rate = 0.0;

@@ -43,7 +43,9 @@ constexpr CatalogueColumn all_columns[] = {
     {"rupture_area", &Event::rupture_area, nullptr, &CatalogueInfo::plane},
     {"z_hypocentre", &Event::z_hypocentre, nullptr, &CatalogueInfo::plane},
     {"z_begin", &Event::z_begin, nullptr, &CatalogueInfo::plane},
-    {"peak_slip_rate", &Event::peak_slip_rate, nullptr, &CatalogueInfo::plane}};
+    {"peak_slip_rate", &Event::peak_slip_rate, nullptr, &CatalogueInfo::plane},
+    {"friction_work", &Event::friction_work, nullptr, &CatalogueInfo::friction},
+    {"friction_total", &Event::friction_total, nullptr, &CatalogueInfo::friction}};
 
 std::string column_line(const CatalogueInfo &info) {
   std::string out;

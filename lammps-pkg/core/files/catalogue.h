@@ -9,7 +9,8 @@
 ///
 /// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
 /// mean_slip, stress_drop, peak_slip; of ruptures on a plane then moment_strike, moment_dip,
-/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate. The program that
+/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate; of drops
+/// friction_work, friction_total. The program that
 /// writes them defines them. They are written in this order; a reader finds columns by name and
 /// ignores those it does not know. Times in model time, sizes in model energy, 17 significant
 /// digits. Events are in order of time and do not overlap; identifiers increase. Events of another
@@ -40,7 +41,8 @@ struct CatalogueInfo : files::FileHeader {
   bool peak_slip = false;                                                ///< the same
   /// Optional columns that only ruptures have.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
-  bool plane = false;  ///< the columns that only ruptures on a plane have, all of them
+  bool plane = false;     ///< the columns that only ruptures on a plane have, all of them
+  bool friction = false;  ///< the columns that only drops have, both of them
 
   /// Whether events may overlap in time; if so, they are sorted by their ends.
   bool overlapping() const;
