@@ -305,8 +305,8 @@ def quality(output, *runs):
 
 
 if __name__ == "__main__":
-    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates, energies=energies,
-                    switched=switched, figure=figure)
+    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates,
+                    energies=energies, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

@@ -513,6 +513,21 @@ def nearest_table():
     return table(["fitted: point, length", "values", "exponent, rms of decades", "gamma, B", "excess †", "distance"], out)
 
 
+def slip_lengths_table():
+    """Two faults whose events are slip, at all lengths and packings that were run, memory 1."""
+    names, out = {"s004": "impedance 0.1", "s006": "in place"}, []
+    rows = [row for row in calibrate.completed(POINTS) if row["point"][:4] in names and row["memory"] == "1"]
+    for row in sorted(rows, key=lambda row: (row["point"][:4], float(row["length"]), row["seed"], -float(row["dt"]))):
+        step = "" if row["dt"] == "0.12" else ", half the step"
+        decades = ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
+        out.append([
+            f"{names[row['point'][:4]]}: {row['length']}, {row['seed']}{step}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades})",
+            shown(number(row, "gamma_0.0001")), f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}",
+            f"{shown(number(row, 'excess'))}, {shown(number(row, 'rank'))}"
+        ])
+    return table(["plates: length, packing", "exponent (in each decade)", "gamma of all times", "B, one event in", "excess, rank †"], out)
+
+
 def slider_table():
     """Of the settings of the block-slider that were tried, the one nearest to the paper over all lengths."""
     statements, rows = calibrate.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # below: loading only

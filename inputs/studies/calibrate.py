@@ -405,6 +405,8 @@ def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
             log += -0.5 * (off / tolerance)**2 - np.log(tolerance / one.tolerance)
         log += np.array([-0.5 * STATEMENTS_BY_NAME["waves"].deviation({"mass": one.get("mass", "r2")})**2 for one in words])
     for name, tolerance in (("B", math.log(1.5)), ("gamma", 0.2)):  # one fit for all lengths
+        if name not in surrogate.fits:
+            continue
         (a, x), (b, y) = (found[length][name] for length in found)
         log += -0.5 * (a - b)**2 / (tolerance**2 + x**2 + y**2)
     return cube, memory, words, found, log, surrogate

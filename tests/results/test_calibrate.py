@@ -87,3 +87,22 @@ def test_points_are_added_to_a_table(tmp_path):
     assert table.read_text().startswith(first)
     assert [line.split(",")[:4] for line in lines[1:]] == [[f"p{n:03d}", "fault", "120" if n < 3 else "480", "1"] for n in range(5)]
     assert len({line.split(",")[5] for line in lines[1:]}) == 5
+
+
+def test_points_are_proposed_for_what_is_not_printed_as_well(tmp_path, monkeypatch):
+    pytest.importorskip("sklearn")
+    monkeypatch.setattr(calibrate, "SAMPLES", 3000)
+    draw, rows, spring = random.Random(2), [], calibrate.UNPRINTED["kt"]
+    for n in range(40):
+        words = calibrate.settings_of([draw.random() for _ in calibrate.UNPRINTED])
+        slip = 1 - spring.coordinate(words, "kt")  # soft springs alone make slip
+        rows += [{**row(f"p{n:03d}", length, str(memory), **{**{"impedance": ""}, **words}), "excess": str(slip)} for memory in calibrate.MEMORIES
+                 for length in ("120", "480")]
+    points, table = tmp_path / "points.csv", tmp_path / "study.csv"
+    calibrate.write(points, "# points", rows)
+    calibrate.propose(table, "120", 60, points, "slip")
+    lines = [line.split(",") for line in table.read_text().splitlines()]
+    assert [line[0] for line in lines] == [f"s{n:03d}" for n in range(60)]
+    found = [spring.coordinate(dict(word.split("=") for word in line[5].split()), "kt") for line in lines]
+    # Slip needs a coordinate below 0.5; of the prior 40 % are above 0.6.
+    assert sum(x > 0.6 for x in found) < 0.2 * len(found), found

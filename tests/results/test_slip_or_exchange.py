@@ -130,3 +130,16 @@ def test_bad_input(script, work):
     refused(script, "events nowhere out.csv.xz", r"nowhere\.catalogue\.csv")
     assert not Path("out.csv.xz").exists()
     run(script, "unknown a b", status=1)
+
+
+def test_quality_of_a_damped_oscillation(tmp_path):
+    """An oscillation of period 33 whose amplitude decays as exp(-t / 200), above a drift and a small one that nothing damps."""
+    dt = 0.1
+    time = dt * np.arange(20000)
+    pe = 1 + 1e-4 * time + np.exp(-time / 200) * np.sin(2 * np.pi * time / 33) + 1e-3 * np.sin(2 * np.pi * time / 22)
+    write_series(tmp_path / "glued.pe.bin", pe, dict(dt=dt, viscosity=0.01, impedance=0))
+    slip_or_exchange.quality(tmp_path / "q.csv", tmp_path / "glued")
+    row = dict(zip(*(line.split(",") for line in (tmp_path / "q.csv").read_text().splitlines()[1:3])))
+    assert float(row["rate"]) == pytest.approx(1 / 200, rel=0.02)
+    assert float(row["quality"]) == pytest.approx(np.pi * 200 / 33, rel=0.02)
+    assert row["stretches"] == "4"  # exp(-66 n / 200) < 0.3 from n = 4 on
