@@ -35,7 +35,7 @@ from text_tables import rows_of  # noqa: E402
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
 DEFAULT = FOLDER / "calibration/default.csv.xz"  # points from which the default was chosen
-CAMPAIGN, VALIDATION, DAMPING = FOLDER / "campaign", FOLDER / "validation", FOLDER / "damping"
+CAMPAIGN, VALIDATION, DAMPING, SLIP = (FOLDER / name for name in ("campaign", "validation", "damping", "slip"))
 LOADING = str(calibrate.LOADING)
 HALF_STEP_UNTIL = "40100"  # of the run at length 480 with half the time step
 BURST = 0.6  # events that follow another faster are those of short waves
@@ -153,15 +153,16 @@ def judged(rows, statement):
 
 
 def paper_table():
-    """Each statement for both faults, those whose events are slip first."""
-    default, paper = (grouped(of_all_times(folder), lambda row: row["length"]) for folder in (CAMPAIGN, DAMPING))
-    groups = {f"default, {length}": default[length] for length in ("120", "480", "1890")}
-    groups |= {f"preset paper, {length}": paper[length] for length in ("120", "480")}
-    slip = {}
-    for row in read(DAMPING / "kinds.csv"):
-        if float(row["smallest"]) in (0.001, 0.01):
-            name = f"{'default' if row['run'].startswith('damped') else 'preset paper'}, {row['length']}"
-            slip.setdefault(name, []).append((float(row["events"]), float(row["slip"])))
+    """Each statement for the three faults."""
+    groups, slip = {}, {}
+    for name, folder, lengths in (("default", CAMPAIGN, ("120", "480")), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", ))):
+        rows = grouped(of_all_times(folder), lambda row: row["length"])
+        groups |= {f"{name}, {length}": rows[length] for length in lengths}
+    for folder, preset in ((DAMPING, "preset paper"), (SLIP, "preset slip")):
+        for row in read(folder / "kinds.csv"):
+            if float(row["smallest"]) in (0.001, 0.01):
+                name = f"{'default' if row['run'].startswith('damped') else preset}, {row['length']}"
+                slip.setdefault(name, []).append((float(row["events"]), float(row["slip"])))
     shares = {name: sum(n * x for n, x in some) / sum(n for n, _ in some) for name, some in slip.items()}
     out = [["share of events of 0.001 to 0.1 that are slip †", *(shown(shares.get(name)) for name in groups)]]
     out += [[one.text, *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
@@ -334,14 +335,22 @@ def of_all_times(folder):
     return rows
 
 
-def preset_paper_table():
-    """The catalogues of preset paper, none of whose packings was used to choose its values."""
+def of_preset(folder):
+    """Catalogues of a preset, none of whose packings was used to choose its values."""
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
     columns |= {"in each decade": lambda row: ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])}
     columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_0.0001'))}, {shown(number(row, 'gamma_longer'))}"}
     columns |= {"B of all times": "B_0.0001"}
     columns |= {"one event in, without those within 0.6": lambda row: f"{shown(number(row, 'mean_time_0.0001'))}, {shown(number(row, 'apart'))}"}
-    return study_table("", columns, of_all_times(DAMPING))
+    return study_table("", columns, of_all_times(folder))
+
+
+def preset_paper_table():
+    return of_preset(DAMPING)
+
+
+def preset_slip_table():
+    return of_preset(SLIP)
 
 
 def short_waves_table():
