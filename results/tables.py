@@ -155,7 +155,7 @@ def judged(rows, statement):
 def paper_table():
     """Each statement for the three faults."""
     groups, slip = {}, {}
-    for name, folder, lengths in (("default", CAMPAIGN, ("120", "480")), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", ))):
+    for name, folder, lengths in (("default", CAMPAIGN, ("120", "480")), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120",))):
         rows = grouped(of_all_times(folder), lambda row: row["length"])
         groups |= {f"{name}, {length}": rows[length] for length in lengths}
     for folder, preset in ((DAMPING, "preset paper"), (SLIP, "preset slip")):
