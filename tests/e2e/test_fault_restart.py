@@ -30,13 +30,13 @@ def restart_steps(folder="."):
     return sorted(int(path.name.split(".")[2]) for path in Path(folder).glob("a.restart.*.info") if path.name.split(".")[2].isdigit())
 
 
-WORDS = [("preset", "Single", "statistics, single, paper or slip"), ("hold", "Position", "stress or position"), ("contacts", "ALL", "fault, all or smooth"),
-         ("ruptures", "Yes", "no or yes"), ("leap", "on", "no or yes"), ("faces", "grid", "random or none"), ("seeds", "none", "random or grid"),
-         ("series", "foo", "yes or no"), ("history", "foo", "yes or no"), ("overwrite", "1", "no or yes"), ("location", "true", "no or yes"),
-         ("ledger", "true", "no or yes"), ("loose", "removed", "remove or keep"), ("mass", "r4", "r2 or r3"), ("onset", "Step", "located or step"),
-         ("picker", "median", "exponential, average or literal"), ("dt", "0", "a number above 0"), ("dt", "fast", "a number above 0"),
-         ("checkpoint", "0", "a whole number of at least 1"), ("steps", "10.5", "a whole number of at least 0"),
-         ("settle", "-1", "a whole number of at least 0")]
+WORDS = [("preset", "Single", "statistics, single, paper or slip"), ("hold", "Position", "stress or position"),
+         ("contacts", "ALL", "fault, all or smooth"), ("ruptures", "Yes", "no or yes"), ("leap", "on", "no or yes"),
+         ("faces", "grid", "random or none"), ("seeds", "none", "random or grid"), ("series", "foo", "yes or no"), ("history", "foo", "yes or no"),
+         ("overwrite", "1", "no or yes"), ("location", "true", "no or yes"), ("ledger", "true", "no or yes"), ("loose", "removed", "remove or keep"),
+         ("mass", "r4", "r2 or r3"), ("onset", "Step", "located or step"), ("picker", "median", "exponential, average or literal"),
+         ("dt", "0", "a number above 0"), ("dt", "fast", "a number above 0"), ("checkpoint", "0", "a whole number of at least 1"),
+         ("steps", "10.5", "a whole number of at least 0"), ("settle", "-1", "a whole number of at least 0")]
 
 
 def test_words(lmp):

@@ -114,8 +114,8 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
       EXPECT_NEAR(a.events[n].slip_moment, b.events[n].slip_moment,
                   1e-6 * std::fabs(a.events[n].slip_moment) + 1e-12);
 
-    LSM::PeSeriesReader x(LSM::files::open_plain(path("whole" + tag + ".pe")));
-    LSM::PeSeriesReader y(LSM::files::open_plain(path("resumed" + tag + ".pe")));
+    LSM::PeSeriesReader x(LSM::text_io::open_plain(path("whole" + tag + ".pe")));
+    LSM::PeSeriesReader y(LSM::text_io::open_plain(path("resumed" + tag + ".pe")));
     std::int64_t step = 0, other = 0;
     double time = 0, pe = 0, other_time = 0, other_pe = 0;
     std::int64_t samples = 0;
@@ -186,7 +186,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
       EXPECT_NEAR(std::stod(*fast.info.find("lambda")), lambda, 1e-15);
       for (const auto &e : fast.events)
         EXPECT_NEAR(e.t_end, 60.0 + 0.015 * static_cast<double>(e.step_end - 2000), 1e-9);
-      LSM::PeSeriesReader series(LSM::files::open_plain(path("fast.pe")));
+      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("fast.pe")));
       std::int64_t step = 0;
       double time = 0, pe = 0;
       ASSERT_TRUE(series.next(step, time, pe));
@@ -258,7 +258,7 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       LSM::PickerSettings settings;
       ASSERT_TRUE(LSM::from_string(picker, settings.reading));
       LSM::EventPicker later(settings);
-      LSM::PeSeriesReader series(LSM::files::open_plain(path("online.pe")));
+      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("online.pe")));
       std::vector<LSM::Event> events;
       std::int64_t step = 0;
       double time = 0, pe = 0;
@@ -285,7 +285,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const auto catalogue = unit::read_catalogue(path("located.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
   std::size_t elsewhere = 0;
-  double lost = 0.0, moment = 0.0, taken_up = 0.0;
+  double lost = 0.0, moment = 0.0;
   const double first = catalogue.events[0].x_centroid;
   for (const auto &e : catalogue.events) {
     // Row n of the thermo table is that of step n.
@@ -294,7 +294,6 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     lost += r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
             r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
     moment += e.slip_moment;
-    taken_up += e.friction_work;
     // The length is a whole number of bins, of which the largest slip is at least the mean.
     EXPECT_EQ(e.rupture_length, std::round(e.rupture_length));
     EXPECT_GE(e.rupture_length, 1.0);
@@ -305,7 +304,6 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     EXPECT_LT(e.x_centroid, 40.0);
     if (std::fabs(e.x_centroid - first) > 1.0) ++elsewhere;
   }
-  EXPECT_NEAR(taken_up, lost, 0.01 * lost) << "the ledger's work of friction within the drops";
   EXPECT_GT(elsewhere, 0u) << "every event is at the same place";
   // The work is stress times slip times length, and the stress about 0.6 times 0.006.
   const double slip = moment / std::stod(*catalogue.info.find("modulus"));
@@ -323,8 +321,6 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     EXPECT_NEAR(a.peak_slip, b.peak_slip, 1e-6 * a.peak_slip);
     EXPECT_NEAR(std::remainder(a.x_centroid - b.x_centroid, 40.0), 0.0, 1e-3);
     EXPECT_EQ(a.rupture_length, b.rupture_length);
-    EXPECT_NEAR(a.friction_work, b.friction_work, 1e-5 * a.friction_work);
-    EXPECT_NEAR(a.friction_total, b.friction_total, 1e-5 * a.friction_total);
   }
 }
 

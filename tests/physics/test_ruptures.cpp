@@ -2,6 +2,7 @@
 // Slip, ruptures and places of drops of compute lsm/events: prescribed slip, a short fault,
 // restart.
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -250,6 +251,17 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
       }
       return slip;
     };
+    const auto work_between = [&records](std::int64_t from, std::int64_t to) {
+      double work = 0.0;
+      for (const LSM::SlipRecord &record : records) {
+        const auto inside = std::min(to, record.step_end) - std::max(from, record.step_begin);
+        if (inside <= 0) continue;
+        work += std::accumulate(record.row.work.begin(), record.row.work.end(), 0.0) *
+                static_cast<double>(inside) /
+                static_cast<double>(record.step_end - record.step_begin);
+      }
+      return work;
+    };
     const auto bins = records.front().row.slip.size();
     double whole = 0.0;
     for (std::size_t b = 0; b < bins; ++b) whole += factor * slip_between(0, 6000, b);
@@ -267,6 +279,11 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
         most = std::max(most, std::fabs(slip));
       }
       EXPECT_NEAR(e.slip_moment, moment, 1e-9 * most) << "drop " << e.id;
+      const double work = work_between(e.step_start, e.step_end);
+      EXPECT_GT(work, 0.0);
+      EXPECT_NEAR(e.friction_work, work, 1e-9 * work) << "drop " << e.id;
+      const double until = work_between(0, e.step_end);
+      EXPECT_NEAR(e.friction_total, until, 1e-9 * until) << "drop " << e.id;
       EXPECT_NEAR(e.peak_slip, most, 1e-9 * most) << "drop " << e.id;
       in_drops += e.slip_moment;
     }

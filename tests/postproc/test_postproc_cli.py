@@ -732,7 +732,8 @@ def test_where(do, no):
         do(f"select f.csv --overwrite -o part.csv --where {words}")
         assert left("part.csv") == expected, words
         assert "friction_work,friction_total" in Path("part.csv").read_text()
-    no("f.csv: fewer than two events from --from to --to, expected two or more for --where excess", "select f.csv -o x.csv --where excess>0 --from 25")
+    no("f.csv: fewer than two events from --from to --to, expected two or more for --where excess",
+       "select f.csv -o x.csv --where excess>0 --from 25")
     no("has no column excess", "select c.csv -o x.csv --where excess>0")
     no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")
 

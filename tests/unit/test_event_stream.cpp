@@ -503,8 +503,14 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   const auto located = LSM::drops_header(settings, scene, grid);
   EXPECT_EQ(*located.find("slip_bin"), "1.25");
   EXPECT_EQ(*located.find("modulus"), "0.40000000000000002");
-  EXPECT_TRUE(located.slip_moment && located.peak_slip);
+  EXPECT_TRUE(located.slip_moment && located.peak_slip && located.friction);
   EXPECT_FALSE(located.stress_drop);
+  EventSettings faces_only = settings;
+  faces_only.ruptures_file.clear();
+  faces_only.location = true;
+  const auto without = LSM::drops_header(faces_only, scene, grid);
+  EXPECT_TRUE(without.peak_slip);
+  EXPECT_FALSE(without.friction) << "contacts are recorded for ruptures only";
   const auto ruptures = LSM::ruptures_header(settings, scene, grid);
   EXPECT_EQ(*ruptures.find("slip_bin"), "1.25");
   EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");

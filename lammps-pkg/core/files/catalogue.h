@@ -42,7 +42,7 @@ struct CatalogueInfo : files::FileHeader {
   /// Optional columns that only ruptures have.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
   bool plane = false;     ///< the columns that only ruptures on a plane have, all of them
-  bool friction = false;  ///< the columns that only drops have, both of them
+  bool friction = false;  ///< the columns that only drops beside ruptures have, both of them
 
   /// Whether events may overlap in time; if so, they are sorted by their ends.
   bool overlapping() const;
