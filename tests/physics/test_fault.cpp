@@ -114,8 +114,8 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
       EXPECT_NEAR(a.events[n].slip_moment, b.events[n].slip_moment,
                   1e-6 * std::fabs(a.events[n].slip_moment) + 1e-12);
 
-    LSM::PeSeriesReader x(LSM::text_io::open_plain(path("whole" + tag + ".pe")));
-    LSM::PeSeriesReader y(LSM::text_io::open_plain(path("resumed" + tag + ".pe")));
+    LSM::PeSeriesReader x(LSM::files::open_plain(path("whole" + tag + ".pe")));
+    LSM::PeSeriesReader y(LSM::files::open_plain(path("resumed" + tag + ".pe")));
     std::int64_t step = 0, other = 0;
     double time = 0, pe = 0, other_time = 0, other_pe = 0;
     std::int64_t samples = 0;
@@ -186,7 +186,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
       EXPECT_NEAR(std::stod(*fast.info.find("lambda")), lambda, 1e-15);
       for (const auto &e : fast.events)
         EXPECT_NEAR(e.t_end, 60.0 + 0.015 * static_cast<double>(e.step_end - 2000), 1e-9);
-      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("fast.pe")));
+      LSM::PeSeriesReader series(LSM::files::open_plain(path("fast.pe")));
       std::int64_t step = 0;
       double time = 0, pe = 0;
       ASSERT_TRUE(series.next(step, time, pe));
@@ -258,7 +258,7 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       LSM::PickerSettings settings;
       ASSERT_TRUE(LSM::from_string(picker, settings.reading));
       LSM::EventPicker later(settings);
-      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("online.pe")));
+      LSM::PeSeriesReader series(LSM::files::open_plain(path("online.pe")));
       std::vector<LSM::Event> events;
       std::int64_t step = 0;
       double time = 0, pe = 0;
