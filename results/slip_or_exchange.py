@@ -265,7 +265,8 @@ def decides(base, points):
     script = "set multiplot layout 2,2\nset logscale x\nset xrange [3e-4:0.08]\nset xlabel 'viscosity'\nset datafile separator\n"
     impedances = sorted({row["impedance"] for row in rows}, key=float)
     for n, (label, key, paper, how) in enumerate(
-        (("mean time between events", "mean_time_0.0001", 15.2, "set logscale y"), ("gamma of all times", "gamma_0.0001", 0.995, "unset logscale y"),
+        (("mean time between events", "mean_time_0.0001", 15.2, "set logscale y\nset yrange [0.1:500]\nset key bottom right"),
+         ("gamma of all times", "gamma_0.0001", 0.995, "unset logscale y\nset autoscale y"),
          ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", 1.07, ""), ("excess of friction, events of 10^{-3} to 0.1", "excess", None, ""))):
         lines, data = [f"{paper} w l dt 2 lc rgb '#888888' t 'paper'"] if paper else [], ""
         for colour, impedance in zip((2, 8, 6), impedances):
