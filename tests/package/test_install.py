@@ -83,11 +83,11 @@ def test_install(work):
     same_bytes("python.catalogue.csv", "lmp.catalogue.csv")
     same_bytes("python.pe.bin", "lmp.pe.bin")
 
-    # headers of the core, and its library
+    # headers of the core, and its library, which takes checksums by zlib
     Path("program.cpp").write_text(PROGRAM)
     library, = root.rglob("liblsm_core.a")
     run(Program("compiler", os.environ.get("LSM_CXX", "c++")), "-std=c++17",
-        f"-I{root}/include -I{root}/include/lsm -o program program.cpp {library}")
+        f"-I{root}/include -I{root}/include/lsm -o program program.cpp {library} -lz")
     run(Program("program", work / "program"))
 
 
