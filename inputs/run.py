@@ -83,6 +83,12 @@ def events_in(catalogue):
         return sum(line[0] not in "#e" and line.endswith("\n") for line in lines)
 
 
+def words_of_lmp(ranks, binaries, scene, log, pairs):
+    """A scene on so many ranks; the file `lock` stays locked as long as they run."""
+    start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/{scene}.in", "-log", log]
+    return start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+
+
 class Fault:
     catalogue, on_ranks = "fault.catalogue.csv", True
     OWN = {"prefix", "restart", "overwrite", "checkpoint"}
@@ -95,8 +101,7 @@ class Fault:
         return {*declared, *(also[1].split() if also else ())}
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.settings, self.checkpoint = folder, settings, checkpoint
-        self.start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/fault.in", "-log", "none"]
+        self.folder, self.settings, self.checkpoint, self.start = folder, settings, checkpoint, (ranks, binaries, "fault", "none")
 
     def restart(self):
         """Newest complete restart file; lmp checks that it is intact and of the same run."""
@@ -106,7 +111,7 @@ class Fault:
     def command(self):
         name = self.restart()
         pairs = [f"restart={name}" if name else "overwrite=yes", "prefix=fault", f"checkpoint={self.checkpoint}", *self.settings]
-        return self.start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+        return words_of_lmp(*self.start, pairs)
 
     def stop(self, _):
         # fault.in looks for this file after each restart file.
@@ -139,11 +144,7 @@ class Rupture:
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder = folder
-        pairs = ["prefix=rupture", "overwrite=yes", *settings]
-        self.words = [
-            "mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/{self.scene}.in", "-log", "rupture.log"
-        ]
-        self.words += [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+        self.words = words_of_lmp(ranks, binaries, self.scene, "rupture.log", ["prefix=rupture", "overwrite=yes", *settings])
 
     def command(self):
         for name in ("cpu.txt", "rupture.log"):  # it starts over
