@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The same lattice in ESyS-Particle. Arguments: NAME.geo, side, steps, warm-up; the tags of its links are those of lattice.in.
 import sys
-import time
 from esys.lsm import LsmMpi, NRotBondPrms
 from esys.lsm.util import BoundingBox, Vec3
+from esys_time import time_steps
 
 name, side, steps, warmup = sys.argv[1], *map(int, sys.argv[2:5])
 simulation = LsmMpi(numWorkerProcesses=1, mpiDimList=[1, 1, 1])
@@ -13,11 +13,4 @@ simulation.setTimeStepSize(0.3)
 simulation.readGeometry(name)
 for tag, k in ((1, 1.0), (2, 0.5), (3, 0.25), (4, 1.0), (5, 0.5)):
     simulation.createInteractionGroup(NRotBondPrms(name="links%d" % tag, normalK=k, breakDistance=10.0, tag=tag, scaling=False))
-simulation.setNumTimeSteps(warmup + steps)
-for step in range(warmup):
-    simulation.runTimeStep()
-start = time.time()
-for step in range(steps):
-    simulation.runTimeStep()
-print("Loop time of %.6f for %d steps with %d atoms" % (time.time() - start, steps, simulation.getNumParticles()), flush=True)
-simulation.exit()
+time_steps(simulation, warmup, steps)

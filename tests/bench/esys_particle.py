@@ -2,9 +2,9 @@
 # The same fault in ESyS-Particle without normal stress and viscosity; writes PE at every step.
 # Arguments: NAME.geo, workers, steps.
 import sys
-import time
 from esys.lsm import (InteractionScalarFieldSaverPrms, LsmMpi, NRotBondPrms, NRotFrictionPrms)
 from esys.lsm.util import BoundingBox, Vec3
+from esys_time import time_steps
 
 name, workers, length, steps, warmup = sys.argv[1], *map(int, sys.argv[2:6])
 simulation = LsmMpi(numWorkerProcesses=workers, mpiDimList=[workers, 1, 1])
@@ -27,11 +27,4 @@ for group in ("links", "contacts"):
     simulation.createFieldSaver(
         InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group, fileFormat="SUM",
                                         beginTimeStep=0, endTimeStep=warmup + steps, timeStepIncr=1))
-simulation.setNumTimeSteps(warmup + steps)
-for step in range(warmup):
-    simulation.runTimeStep()
-start = time.time()
-for step in range(steps):
-    simulation.runTimeStep()
-print("Loop time of %.6f for %d steps with %d atoms" % (time.time() - start, steps, simulation.getNumParticles()), flush=True)
-simulation.exit()
+time_steps(simulation, warmup, steps)
