@@ -10,25 +10,27 @@
 
 namespace physics {
 
-inline const char *const discs_start = R"(
-variable newton   index on
-units             lj
-dimension         2
-boundary          f f p
+/// Settings for discs or spheres of radius 1, after dimension and boundary.
+inline const std::string spheres_of_radius_1 = R"(
 newton            ${newton}
 atom_style        hybrid bond sphere
 atom_modify       map array
 comm_modify       mode single cutoff 4.5
 neighbor          0.4 bin
 neigh_modify      delay 0 every 1 check yes
-special_bonds     lj/coul 0 1 1
 )";
+
+inline const std::string discs_start = R"(
+variable newton   index on
+units             lj
+dimension         2
+boundary          f f p
+)" + spheres_of_radius_1 + "special_bonds     lj/coul 0 1 1\n";
 
 /// Discs of radius 1 and type 1 at the given centres (x, y) in a box of 60 x 20.
 inline std::string discs(const std::vector<std::pair<std::string, std::string>> &centres,
                          int bond_types = 1, int types = 1) {
-  std::string text = std::string(discs_start) +
-                     "region box block -30 30 -10 10 -0.5 0.5\ncreate_box " +
+  std::string text = discs_start + "region box block -30 30 -10 10 -0.5 0.5\ncreate_box " +
                      std::to_string(types) + " box bond/types " + std::to_string(bond_types) +
                      " extra/bond/per/atom 6 extra/special/per/atom 12\n";
   for (const auto &c : centres)

@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "disc_scene.h"
+
 namespace physics {
 
 /// Spheres of diameter 2 and mass 1, the lower ones of type 1 and each upper one, of type 2, right
@@ -18,13 +20,8 @@ inline std::string facing_spheres(int bins, int rows, const std::string &begin,
   std::string script = R"(
 variable          newton index off
 units             lj
-)" + begin + R"(
-newton            ${newton}
-atom_style        hybrid bond sphere
-atom_modify       map array
-comm_modify       mode single cutoff 4.5
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check yes
+)" + begin + spheres_of_radius_1 +
+                       R"(
 region            box block )" +
                        box + "\ncreate_box        2 box\n";
   for (const char *of : {"1 single ", "2 single "})
