@@ -174,7 +174,7 @@ def write_curves(planes, reference, until, path):
 
 
 def stations_in(path):
-    """The rows of BASE-stations.csv. \raises ValueError"""
+    """The rows of BASE-stations.csv. \\raises ValueError"""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     try:
@@ -186,7 +186,7 @@ def stations_in(path):
 
 
 def conclude(base, no_picture):
-    """Prints and writes what follows from BASE-stations.csv, and draws BASE.csv. \raises ValueError"""
+    """Prints and writes what follows from BASE-stations.csv, and draws BASE.csv. \\raises ValueError"""
     rows = convergence_of(stations_in(f"{base}-stations.csv"))
     write_table(f"{base}-convergence.csv", [], rows)
     for row in rows:

@@ -193,14 +193,15 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
     choose(event, options.from_time, options.to_time, options, table, use);
   };
   ReadEvent event;
-  std::vector<ReadEvent> all;  // if all have to be known first
+  std::vector<ReadEvent> all;
+  const bool all_first = where.needs_friction_rate();
   while (reader.next(event)) {
-    if (where.needs_friction_rate())
+    if (all_first)
       all.push_back(event);
     else
       take(event);
   }
-  if (where.needs_friction_rate()) {
+  if (all_first) {
     const auto within = [&](const ReadEvent &one) {
       const double time = one.t_start * unit;
       return !is_before(time, options.from_time) && is_before(time, options.to_time);

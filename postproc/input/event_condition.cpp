@@ -52,8 +52,11 @@ EventConditions::EventConditions(const std::vector<std::string> &texts, const Ca
                                   condition.column, names));
     }
     all_.push_back({condition, *found});
-    if (condition.column == "excess") needs_friction_rate_ = true;
   }
+}
+
+bool EventConditions::needs_friction_rate() const {
+  return std::any_of(all_.begin(), all_.end(), [](const One &one) { return one.is_excess(); });
 }
 
 void EventConditions::set_friction_rate(const Event &first, const Event &last) {
@@ -61,9 +64,9 @@ void EventConditions::set_friction_rate(const Event &first, const Event &last) {
 }
 
 double EventConditions::One::of(const Event &event, double friction_rate) const {
-  if (column.number) return event.*column.number;
-  if (column.integer) return static_cast<double>(event.*column.integer);
-  return (event.friction_work - friction_rate * (event.t_end - event.t_start)) / event.size;
+  if (is_excess())
+    return (event.friction_work - friction_rate * (event.t_end - event.t_start)) / event.size;
+  return column.number ? event.*column.number : static_cast<double>(event.*column.integer);
 }
 
 bool EventConditions::hold(const Event &event) const {

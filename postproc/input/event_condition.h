@@ -35,7 +35,7 @@ class EventConditions {
   EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
                   const std::string &path);
   /// Whether one of the conditions needs set_friction_rate().
-  bool needs_friction_rate() const { return needs_friction_rate_; }
+  bool needs_friction_rate() const;
   /// Sets the mean power of friction from that between the ends of the first and the last event.
   void set_friction_rate(const Event &first, const Event &last);
   bool hold(const Event &event) const;
@@ -43,11 +43,11 @@ class EventConditions {
  private:
   struct One {
     EventCondition condition;
-    CatalogueColumn column;  // without a member of an event: excess
+    CatalogueColumn column;
+    bool is_excess() const { return !column.number && !column.integer; }
     double of(const Event &event, double friction_rate) const;
   };
   std::vector<One> all_;
-  bool needs_friction_rate_ = false;
   double friction_rate_ = 0.0;
 };
 

@@ -46,20 +46,22 @@ void DropLocator::add_interval(std::int64_t step, const FaultRow &row,
 
 void DropLocator::finish(std::int64_t step, const FaultRow &row, const Report &report) {
   for (Drop &drop : waiting_) {
-    Sum until(grid_.bins);
     add_part(drop.sum, drop.event.step_start, drop.event.step_end, step, row);
-    add_part(until, end_, drop.event.step_end, step, row);
-    drop.event.friction_total = work_ + until.work;
+    drop.event.friction_total = work_ + part_of(end_, drop.event.step_end, step) * work_of(row);
     report(located(drop));
   }
   waiting_.clear();
 }
 
+double DropLocator::part_of(std::int64_t from, std::int64_t to, std::int64_t step) const {
+  const std::int64_t inside = std::min(to, step) - std::max(from, end_);
+  return inside <= 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(step - end_);
+}
+
 void DropLocator::add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
                            const FaultRow &row) const {
-  const std::int64_t inside = std::min(to, step) - std::max(from, end_);
-  if (inside <= 0) return;
-  const double part = static_cast<double>(inside) / static_cast<double>(step - end_);
+  const double part = part_of(from, to, step);
+  if (part == 0.0) return;
   for (std::size_t b = 0; b < sum.slip.size(); ++b)
     sum.slip[b] += part * static_cast<double>(row.slip[b]);
   sum.work += part * work_of(row);

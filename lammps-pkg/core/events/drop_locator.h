@@ -79,7 +79,9 @@ class DropLocator {
     state.list(self.waiting_);
   }
 
-  /// Adds the part of an interval from end_ to `step` that lies between two steps.
+  /// Share of the interval from end_ to `step` that lies between two steps.
+  double part_of(std::int64_t from, std::int64_t to, std::int64_t step) const;
+  /// Adds what the fault did in that share.
   void add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
                 const FaultRow &row) const;
   Event located(const Drop &drop) const;

@@ -9,13 +9,13 @@
 ///
 /// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
 /// mean_slip, stress_drop, peak_slip; of ruptures on a plane then moment_strike, moment_dip,
-/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate; of drops
-/// friction_work, friction_total. The program that
-/// writes them defines them. They are written in this order; a reader finds columns by name and
-/// ignores those it does not know. Times in model time, sizes in model energy, 17 significant
-/// digits. Events are in order of time and do not overlap; identifiers increase. Events of another
-/// kind than drops of PE, named by the parameter `events`, may overlap in time and are in order of
-/// their ends. The parameter `completeness` is a size: smaller events may depend on the time step.
+/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate; of drops beside
+/// ruptures friction_work, friction_total. The program that writes them defines them. They are
+/// written in this order; a reader finds columns by name and ignores those it does not know. Times
+/// in model time, sizes in model energy, 17 significant digits. Events are in order of time and do
+/// not overlap; identifiers increase. Events of another kind than drops of PE, named by the
+/// parameter `events`, may overlap in time and are in order of their ends. The parameter
+/// `completeness` is a size: smaller events may depend on the time step.
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
