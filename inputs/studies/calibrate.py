@@ -419,7 +419,7 @@ def propose(output, length, count, points=None, names=None):
     lines = output.read_text().splitlines() if output.exists() else []
     wanted = names and [STATEMENTS_BY_NAME[name] for name in names.split(",")]
     kind = "s" if wanted else "p"
-    n = sum(1 for line in lines if line.startswith(kind))  # points there
+    n = 1 + max((int(line[1:4]) for line in lines if re.match(kind + r"\d{3}", line)), default=-1)  # numbers that are missing are not used again
     cubes = [] if wanted else list(qmc.Sobol(len(UNPRINTED), seed=2026).random(1024)[n:n + (count // 4 if points else count)])
     if points:
         cube, *_, log, _ = sampled(completed(points), n, wanted or printed(), wanted=wanted)
