@@ -86,6 +86,11 @@ def test_tpv5_goes_on_byte_for_byte(on_ranks, ranks):
     assert int(rupture["step_start"]) < 20 < int(rupture["step_end"]) and float(rupture["rupture_area"]) > 3e7
 
 
+def test_tpv5_names_a_surface_that_there_is_not(lmp):
+    refused(lmp, ["-in", INPUTS / "rupture_tpv5.in", *scene(**TPV5, prefix="none", surface="miror")[2:]],
+            "rupture_tpv5.in: surface is miror, expected free or mirror")
+
+
 def test_tpv5_on_ranks(on_ranks):
     """Sums over ranks have another order, so that numbers agree to rounding; the history holds floats."""
     for ranks in (1, 2):
