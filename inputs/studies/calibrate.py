@@ -47,11 +47,12 @@ SLIDER_KEYS = (*list(SLIDER_SETTINGS)[1:], "warmup", "smallest")
 SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
 
 
-def defaults():
-    """Defaults of the variables of fault.in, for what a table does not set."""
-    lines = (Path(__file__).resolve().parent.parent / "fault.variables").read_text().splitlines()
-    cells = [[cell.strip() for cell in line.split("|")] for line in lines if line.count("|") > 4]
-    return {row[0]: row[1] for row in cells}
+def defaults(preset="statistics"):
+    """Defaults of the variables of fault.in with a preset, for what a table does not set."""
+    text = (Path(__file__).resolve().parent.parent / "fault.variables").read_text()
+    cells = [[cell.strip() for cell in line.split("|")] for line in text.splitlines() if line.count("|") > 4]
+    preset_values = re.findall(rf"^when preset {preset} : (.*)", text, re.M)
+    return {row[0]: row[1] for row in cells} | dict(words.split() for line in preset_values for words in line.split(","))
 
 
 def number(row, key):
@@ -280,16 +281,21 @@ def summary(postproc, folder, memory, work):
     return numbers
 
 
+def settings_in(words):
+    """SETTINGS of a run of which `words` were set."""
+    there = defaults(words.get("preset", "statistics")) | words
+    there = {key: there[text[2:-1]] if text in ("${mu}", "${dt}") else text for key, text in there.items()}
+    there["impedance"] = "" if there["hold"] == "position" else there["impedance"]
+    return {key: there[key] for key in SETTINGS}
+
+
 def collect(binaries, output, folders):
-    rows, silent = read(output) if Path(output).exists() else [], defaults()
+    rows = read(output) if Path(output).exists() else []
     there = {row["point"] for row in rows}
     with tempfile.TemporaryDirectory() as work:
         for folder in (one for one in map(Path, folders) if one.name not in there and (one / "done.json").exists()):
             words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
-            settings = {"point": folder.name, **{key: words.get(key, silent[key]) for key in SETTINGS}}
-            settings["mus"] = words.get("mus", silent["mu"])
-            settings["massstep"] = words.get("massstep", settings["dt"])
-            settings["impedance"] = "" if settings["hold"] == "position" else settings["impedance"]
+            settings = {"point": folder.name, **settings_in(words)}
             if "failed" in json.loads((folder / "done.json").read_text()):
                 rows.append({**settings, "memory": "", "stopped": "yes"})
                 continue
