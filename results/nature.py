@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 from catalogues import CALIFORNIA, LOADING, PERIOD, distance, distance_of_counts, draw, earthquakes, events_of, mean_and_error, numbers_of, over_mean, run
 from catalogues import write_json, write_table
+from lsm.scaling import block_length
 
 HERE = Path(__file__).resolve().parent
 NATURE = "Southern California"
@@ -63,30 +64,10 @@ def random_numbers(count):
     return np.concatenate(blocks)[:count]
 
 
-def block_length(values):
-    """Length of the blocks of a bootstrap (Politis and White 2004), at least the cube root of the number of values."""
-    x = values - np.mean(values)
-    n = len(x)
-    longest = max(1.0, n / 10)
-    shortest = min(np.cbrt(n), longest)
-    last = min(math.ceil(math.sqrt(n)) + 5, n // 2)
-    r = np.array([np.dot(x[:n - lag], x[lag:]) / n for lag in range(last + 1)])
-    if not r[0] > 0:
-        return int(shortest)
-    # The correlation ends where five lags in a row are not significant.
-    significant = [0, *np.flatnonzero(np.abs(r[1:]) >= 2 * math.sqrt(math.log10(n) / n) * r[0]) + 1]
-    end = next(a for a, b in zip(significant, [*significant[1:], math.inf]) if b - a > 5)
-    width = min(2 * max(end, 1), last)
-    lag = np.arange(1, width + 1)
-    weighted = 2 * np.minimum(1, 2 * (1 - lag / width)) * r[1:width + 1]  # flat-top lag window
-    spectrum = r[0] + weighted.sum()
-    length = np.cbrt(1.5 * (np.dot(lag, weighted) / spectrum)**2 * n) if spectrum > 0 else longest
-    return max(1, int(np.clip(length, shortest, longest)))
-
-
 def distance_and_error(first, second, replicas):
     """Distance of two series over their means, and its error by resampling circular blocks of consecutive values."""
-    pair, again, used = [(*np.unique(one, return_inverse=True), block_length(one)) for one in (first, second)], [], 0
+    pair = [(*np.unique(one, return_inverse=True), max(1, int(block_length(one - np.mean(one))))) for one in (first, second)]
+    again, used = [], 0
     uniform = random_numbers(2**19)
     for _ in range(replicas):
         parts = []

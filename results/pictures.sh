@@ -35,19 +35,17 @@ for part; do
       PYTHONPATH=$root/python python3 -m lsm.ruptures "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
       for name in lengths moments length pe; do cp "$new/rupture-$name.png" rupture_$name.png; done
       "$postproc" intervals "${sliders[@]}" -o "$new/fig15_slider_intervals"
-      "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
-      "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
-        --no-comparison -o "$new/rupture_fit"
-      "$postproc" fit "${every[@]}" --scaling --threshold 1e-3 --from "$loading" --range 1e-3:1 --replicas 0 \
-        --no-comparison -o "$new/fault_fit"
-      "$postproc" fit "${every[@]/catalogue/ruptures}" --scaling --threshold 1e-2 --from "$loading" --range 1e-2:1 --replicas 0 \
-        --no-comparison -o "$new/fault_rupture_fit"
+      scaling() { PYTHONPATH=$root/python python3 -m lsm.scaling "$@"; }
+      scaling "${sliders[@]}" -o "$new/slider_fit.scaling"
+      scaling catalogues/slider_ruptures_*.xz --from 40000 --threshold 1 -o "$new/rupture_fit.scaling"
+      scaling "${every[@]}" --threshold 1e-3 --from "$loading" -o "$new/fault_fit.scaling"
+      scaling "${every[@]/catalogue/ruptures}" --threshold 1e-2 --from "$loading" -o "$new/fault_rupture_fit.scaling"
       common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
       "$postproc" intervals damping/fault_{120,240,480,945}_4.catalogue.csv.xz "${common[@]}" --shuffles 0 -o "$new/damping_times"
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
-        for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
+        for kind in csv png; do cp "$new/$fit.scaling.$kind" .; done
       done
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
       for name in fig12_fault_sizes fig13_slider_sizes damping_times; do

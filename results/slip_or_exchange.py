@@ -28,6 +28,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import summary
 from catalogues import LOADING, draw, lsm, rows_of, text_of, write_table
 
 STRETCHES = 40  # random stretches for each event
@@ -119,8 +120,7 @@ def numbers(postproc, pe, dt):
         subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(MEMORY)], **common)
         if not np.any(lsm.read_catalogue(f"{work}/picked.csv")["size"] >= 1e-4):
             return dict(events=0, **dict.fromkeys(("one_in", "exponent", "gamma", "B"), np.nan))
-        said = subprocess.run([postproc, "summary", f"{work}/picked.csv", "--range", "1e-4:1e-1", "--threshold", "1e-4"], **common).stdout
-    row = next(rows_of(said.splitlines()))
+        row, = summary.rows_of(postproc, [f"{work}/picked.csv"], ["1e-4"], ["1e-4:1e-1"])
     keys = dict(events="events_0.0001", one_in="mean_time_0.0001", exponent="exponent_1e-4:1e-1", gamma="gamma_0.0001", B="B_0.0001")
     return {name: float(row[key]) if row[key] else np.nan for name, key in keys.items()}
 

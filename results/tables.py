@@ -16,7 +16,6 @@ import itertools
 import math
 import re
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
@@ -28,25 +27,22 @@ import nature  # noqa: E402
 import periods  # noqa: E402
 import speed_tables  # noqa: E402
 import statements  # noqa: E402
+import summary  # noqa: E402
 import walk  # noqa: E402
 from calibrate import number, read  # noqa: E402
-from text_tables import rows_of  # noqa: E402
+from lsm import scaling  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
 DEFAULT = FOLDER / "calibration/default.csv.xz"  # points from which the default was chosen
 CAMPAIGN, VALIDATION, DAMPING, SLIP = (FOLDER / name for name in ("campaign", "validation", "damping", "slip"))
 LOADING = str(calibrate.LOADING)
-HALF_STEP_UNTIL = "40100"  # of the run at length 480 with half the time step
+HALF_STEP_UNTIL = 40100  # of the run at length 480 with half the time step
 BURST = 0.6  # events that follow another faster are those of short waves
 SIZES = ("1e-4", "1e-3", "1e-2")
 EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
 
 # ---- numbers of postproc
-
-
-def run(*words):
-    return subprocess.run([POSTPROC, *map(str, words)], stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
 @functools.cache
@@ -72,11 +68,10 @@ def faults(kind="catalogue", folder=CAMPAIGN):
 
 @functools.cache
 def summaries(folder=CAMPAIGN):
-    """A row of postproc summary for each catalogue, with the numbers of statements.py if these were measured."""
+    """A row of summary.py for each catalogue, with the numbers of statements.py if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
-    words = [word for option, texts in (("--range", calibrate.RANGES), ("--window", calibrate.WINDOWS)) for text in texts for word in (option, text)]
-    said = run("summary", *paths, "--from", LOADING, "--parameter", "length", "seed", "width", "dt", "lambda", "mass", *words)
-    rows = list(rows_of(said.splitlines()))
+    rows = summary.rows_of(POSTPROC, paths, ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=calibrate.LOADING,
+                           parameters=("length", "seed", "width", "dt", "lambda", "mass"))
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
@@ -170,24 +165,26 @@ def paper_table():
                  [row for row in out if set(row[1:]) != {"-"}] + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
 
+@functools.cache
 def scaling_of(kind, least, folder=CAMPAIGN):
-    """Results of postproc fit: exponent and characteristic size of each catalogue, {length: [(fit, point)]}, and its scaling."""
+    """Exponent and characteristic size of each catalogue, {length: [(fit, point)]}, and how the size depends on the length."""
     groups = faults(kind, folder)
-    numbers = numbers_of("fit", *(path for paths in groups.values() for path in paths), "--scaling", "--threshold", least, "--from", LOADING,
-                         "--range", f"{least}:1", "--replicas", 0, "--no-comparison", "--no-picture")
-    each, scaling = iter(zip(numbers["fits"], numbers["scaling"][0]["points"])), numbers["scaling"][0]
-    return {length: [next(each) for _ in paths] for length, paths in groups.items()}, scaling
+    paths = [path for some in groups.values() for path in some]
+    fits = numbers_of("fit", *paths, "--threshold", least, "--from", LOADING, "--range", f"{least}:1", "--replicas", 0, "--no-comparison",
+                      "--no-picture")["fits"]
+    found, = scaling.scalings([scaling.load(path, float(LOADING)) for path in paths], float(least))
+    each = iter(zip(fits, found.points))
+    return {length: [next(each) for _ in some] for length, some in groups.items()}, found.fit
 
 
 def roll_off_table():
     """Scaling of the largest events with the length, as drops of the total PE and as ruptures."""
     found = {}
     for what, kind, least in (("s* of drops of PE >= 1e-3", "catalogue", "1e-3"), ("s* of ruptures >= 1e-2", "ruptures", "1e-2")):
-        groups, scaling = scaling_of(kind, least)
-        found[what] = [spread([point["s_star"] for _, point in some], some[0][1]["error"]) for some in groups.values()]
+        groups, fit = scaling_of(kind, least)
+        found[what] = [spread([point.s_star for _, point in some], some[0][1].error) for some in groups.values()]
         found[what] += [
-            f"L^({shown(scaling['D'], scaling['D_error'])})", f"{scaling['chi2']:.0f}, {len(scaling['points']) - 2}",
-            f"{scaling['aicc']:.1f}, {scaling['aicc_constant']:.1f}"
+            f"L^({shown(fit['D'], fit['D_error'])})", f"{fit['chi2']:.0f}, {fit['n'] - 2}", f"{fit['aicc']:.1f}, {fit['aicc_constant']:.1f}"
         ]
     found["largest drop"] = [spread([number(row, "largest") for row in summaries() if row["length"] == str(length)]) for length in groups]
     lines = [*map(str, groups), "power law", "chi^2, degrees of freedom", "AICc of it, of a constant"]
@@ -230,7 +227,7 @@ def ruptures_table():
             time, lengths = max(number(row, "t_end") for row in rows) - calibrate.LOADING, [number(row, "rupture_length") for row in rows]
             frequent = sum(x > 10 for x in lengths) / time / length * 1e5
             whole = sum(x >= length for x in lengths)
-            numbers = shown(fit["exponent"], fit["standard_error"]), shown(point["s_star"], point["error"])
+            numbers = shown(fit["exponent"], fit["standard_error"]), shown(point.s_star, point.error)
             out.append([str(length), f"{frequent:.1f}", *numbers, f"{max(lengths):.0f}", str(whole)])
     return table(["length", "longer than 10, per 1e5 time units and unit of length", "exponent 1e-2 to 1", "s*", "longest", "of the whole fault"],
                  out)
@@ -274,7 +271,7 @@ def slip_shares_table():
 def with_sizes(rows, kind, least, key, folder=CAMPAIGN):
     """These summaries of a folder with the characteristic size of the drops of PE or of the ruptures of each run."""
     points = (point for pairs in scaling_of(kind, least, folder)[0].values() for _, point in pairs)
-    return [{**row, key: str(point["s_star"]), f"{key}_error": str(point["error"])} for row, point in zip(rows, points)]
+    return [{**row, key: str(point.s_star), f"{key}_error": str(point.error)} for row, point in zip(rows, points)]
 
 
 def validation_table():
@@ -325,7 +322,7 @@ def stretches_table():
 def of_all_times(folder):
     """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
     paths = [path for some in faults(folder=folder).values() for path in some]
-    all_times = rows_of(run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines())
+    all_times = summary.rows_of(POSTPROC, paths, ["1e-4"], begin=calibrate.LOADING, shortest=0)
     rows = []
     for path, row, one in zip(paths, summaries(folder), all_times):
         starts = [number(event, "t_start") for event in read(path)]
@@ -364,12 +361,10 @@ def short_waves_table():
 
 def half_step_table():
     """The same with half the time step; at length 480 both from the same state on."""
-    out, window = [], ("--from", "37300", "--to", HALF_STEP_UNTIL)
-    for name, length, words in (("fault_120_4", "120", ("--from", LOADING)), ("t_120_0_0.015_4", "120", ("--from", LOADING)),
+    out, window = [], (37300, HALF_STEP_UNTIL)
+    for name, length, times in (("fault_120_4", "120", (calibrate.LOADING, math.inf)), ("t_120_0_0.015_4", "120", (calibrate.LOADING, math.inf)),
                                 ("fault_480_4", "480", window), ("half_480_4", "480", window)):
-        said = run("summary", DAMPING / f"{name}.catalogue.csv.xz", *words, "--shortest", 0, "--threshold", "1e-4", "--range", "1e-4:1e-1",
-                   "--parameter", "dt")
-        row = next(rows_of(said.splitlines()))
+        row, = summary.rows_of(POSTPROC, [DAMPING / f"{name}.catalogue.csv.xz"], ["1e-4"], ["1e-4:1e-1"], (), ("dt",), *times, shortest=0)
         out.append([
             f"{length}, {float(row['dt']):g}", row["events_0.0001"],
             *(of(row, key) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"))

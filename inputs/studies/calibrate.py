@@ -255,18 +255,20 @@ def told(row, key):
     return "" if row.get(key) is None else f"{row[key]:.6g}"
 
 
-def summary(postproc, folder, memory, work):
+def numbers_of_point(postproc, folder, memory, work):
     import numpy as np
+    import summary
     from slip_or_exchange import History, judged, lsm
     from statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
     subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
-    words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
-    base = [postproc, "summary", picked, "--from", str(LOADING), *words, "--threshold", "1e-4"]
-    numbers, squares, longer = (next(rows_of(subprocess.run([*base, *more], **common).stdout.splitlines()))
-                                for more in (["--shortest", "0"], ["--shortest", "0", "--method", "least-squares"], []))
+
+    def fitted(**more):
+        return summary.rows_of(postproc, [picked], ["1e-4"], RANGES, WINDOWS, begin=LOADING, **more)[0]
+
+    numbers, squares, longer = fitted(shortest=0), fitted(shortest=0, method="least-squares"), fitted()
     try:
         values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
     except ValueError:  # too few events or velocities: these statements have no number
@@ -300,8 +302,7 @@ def collect(binaries, output, folders):
                 rows.append({**settings, "memory": "", "stopped": "yes"})
                 continue
             for memory in MEMORIES:
-                numbers = summary(Path(binaries) / "postproc", folder, memory, Path(work))
-                numbers.pop("label")
+                numbers = numbers_of_point(Path(binaries) / "postproc", folder, memory, Path(work))
                 rows.append({**settings, "memory": str(memory), "stopped": "no", **numbers})
     write(output, "# One row for each point and memory of the picker; stopped: a link was strained by half its length", rows)
 
@@ -316,6 +317,7 @@ def write(output, comment, rows):
 
 
 def collect_sliders(binaries, output, folders):
+    import summary
     rows = read(output) if Path(output).exists() else []
     there = {tuple(row[key] for key in SLIDER_SETTINGS) for row in rows}
     for folder in map(Path, folders):
@@ -324,11 +326,8 @@ def collect_sliders(binaries, output, folders):
         if tuple(settings.values()) in there:
             continue
         for warmup in SLIDER_WARMUPS:
-            said = subprocess.run([
-                Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from",
-                str(warmup), "--method", "least-squares", "--range", "1e-2:1", "--range", "1:1e2", "--threshold", *SLIDER_SIZES
-            ], check=True, capture_output=True, text=True).stdout
-            numbers = next(rows_of(said.splitlines()))
+            numbers, = summary.rows_of(
+                Path(binaries) / "postproc", [folder / "catalogue.csv"], SLIDER_SIZES, ("1e-2:1", "1:1e2"), begin=warmup, method="least-squares")
             for size in SLIDER_SIZES:
                 own = {key: numbers[f"{key}_{size}"] for key in ("events", "mean_time", "gamma", "gamma_error", "B", "C")}
                 rows.append({

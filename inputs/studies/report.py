@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One self-contained HTML page on a set of catalogues: counts, figures (SVG), fits, finite-size scaling, Table 1, parameters, and what of
-it is not in the paper. Numbers, texts and figures are those of the commands of postproc.
+it is not in the paper. Numbers, texts and figures are those of the commands of postproc, of lsm.scaling and of lsm.regime.
 
 report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--series FILE]... [--from TIME] [--to TIME]
           [--threshold SIZE] [--lenient] [--replicas N] [--seed N] CATALOGUE...
@@ -11,6 +11,7 @@ import gzip
 import html
 import json
 import lzma
+import os
 import re
 import shutil
 import subprocess
@@ -21,6 +22,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 from text_tables import header_of  # noqa: E402
 
+PYTHON = Path(__file__).resolve().parent.parent.parent / "python"  # of a checkout
 GENERATOR = '<meta name="generator" content="report.py">'
 MODELS = {"lsm": "Fault", "block-slider": "Block-slider", "earthquakes": "Earthquakes"}
 # The exponents that the paper prints. Where they hold it does not say; the ranges are ours, where they are seen.
@@ -57,8 +59,11 @@ class Postproc:
         self.program, self.folder, self.options, self.pictures = program, Path(folder), options, 0
 
     def __call__(self, command, *words):
-        """What a command prints, without the names of its files. \\raises ValueError with its line of error"""
-        done = subprocess.run([self.program, command, *map(str, words), *self.options], capture_output=True, text=True)
+        """What a command prints, or a program of the module lsm, without the names of its files. \\raises ValueError with its line of error"""
+        program = [sys.executable, "-m"] if command.startswith("lsm.") else [self.program]
+        options = [one for one in self.options if (command, one) != ("lsm.regime", "--lenient")]  # it leaves out what is not complete
+        where = {**os.environ, "PYTHONPATH": f"{PYTHON}:{os.environ.get('PYTHONPATH', '')}"}
+        done = subprocess.run([*program, command, *map(str, words), *options], capture_output=True, text=True, env=where)
         if done.returncode:
             raise ValueError(done.stderr.strip().removeprefix("postproc: "))
         return "".join(line + "\n" for line in done.stdout.splitlines() if not line.startswith("wrote ")) + done.stderr
@@ -107,11 +112,9 @@ def section(postproc, files, labels, model, kind, settings):
         return text + "".join(postproc.text("fit", *named, *quick, *RANGES[model], *postproc.base("ranges")) for _ in [0] if model in RANGES)
 
     def scaling():
-        text = postproc.text("fit", *named, *least, *quick[:2], "--replicas", 0, "--no-comparison", "--scaling", *postproc.base("scaling"))
-        if not (postproc.folder / "scaling.scaling.svg").exists():  # no characteristic size in any catalogue
-            return text
+        text = postproc.text("lsm.scaling", *named, *least, *quick[:2], *postproc.base("scaling"))
         return text + postproc.figure(
-            "scaling.scaling", "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
+            "scaling", "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
             "of the sizes; errors by resampling blocks of time; lines: weighted fits.")
 
     def times(rescaled):
@@ -167,7 +170,7 @@ def page_of(settings, folder):
         models += f'<h2 id="model-{number}">{html.escape(heading)}</h2>\n{section(postproc, paths, some, model, kind, settings)}'
         if any(headers):
             parameters += f"<h3>{html.escape(heading)}</h3>\n<p>{html.escape('; '.join(some))}</p>\n{parameter_table(headers)}"
-    regimes = "".join(postproc.text("series", path, "--no-picture", *postproc.base(f"series{n}")) for n, path in enumerate(settings.series or []))
+    regimes = "".join(postproc.text("lsm.regime", path) for path in settings.series or [])
     if regimes:
         regimes = ("<h2>Stick-slip or creep</h2>\n" + regimes +
                    "<p>† The paper shows in its Fig. 8 that PE rises steadily and drops at once. Saw-tooth: "

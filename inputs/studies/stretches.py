@@ -9,7 +9,7 @@ stretches of about 120, fixed in space, whose energies add up to PE (weights fal
 one to the next without jumps). Writes, of all runs,
   OUT.variance.csv   variance of the changes of PE over a time, over the sum of those of the stretches (1: independent), and the
                      correlation of the changes of stretches, by their distance in stretches
-  OUT.events.csv     numbers of `postproc summary` for the events of the whole, of sums of its stretches shifted in time at random
+  OUT.events.csv     numbers of results/summary.py for the events of the whole, of sums of its stretches shifted in time at random
                      (no interaction left), and of each stretch with a picker of its own (mean over stretches)
 """
 import argparse
@@ -25,8 +25,9 @@ from pathlib import Path
 import numpy as np
 
 from calibrate import LOADING
+import summary
 from superpose import write
-from text_tables import header_of, rows_of
+from text_tables import header_of
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # number of sums with different shifts
@@ -124,8 +125,8 @@ def events(postproc, info, every, pe, memory):
     with tempfile.TemporaryDirectory() as work:
         series, picked = Path(work) / "sum.pe.bin", Path(work) / "picked.csv"
         write_series(series, info, every, pe)
-        said = [asked(postproc, "pick", series, "-o", picked, "--memory-time", memory), asked(postproc, "summary", picked, "--range", "1e-4:1e-1")]
-    row = next(rows_of(said[1].splitlines()))
+        asked(postproc, "pick", series, "-o", picked, "--memory-time", memory)
+        row, = summary.rows_of(postproc, [picked], ranges=["1e-4:1e-1"])
     return {name: row.get(key) for name, key in NUMBERS.items()}
 
 

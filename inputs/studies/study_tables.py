@@ -374,7 +374,7 @@ class Study:
         return self.runs.get(name) if name != run.name else None
 
     def numbers(self, run):
-        """Names and commands, of postproc or scripts of results, for a run."""
+        """Names and commands for a run, see program()."""
         commands = dict(self.part("numbers"))
         if self.reference(run):
             commands.update(self.part("comparisons"))
@@ -393,8 +393,15 @@ class Study:
             command = self.fill(self.numbers(run)[name], values)
         except MISSING as error:
             raise TableError(f"numbers of run '{run.name}': {name}: {error}")
+        return self.program(command)
+
+    def program(self, command):
+        """A command for the shell: of postproc, a script of results (NAME.py), or a program of the Python module lsm (lsm.NAME)."""
+        python = shlex.quote(sys.executable)
         if command.split()[0].endswith(".py"):
-            return f"{shlex.quote(sys.executable)} {shlex.quote(str(INPUTS.parent / 'results'))}/{command}"
+            return f"{python} {shlex.quote(str(INPUTS.parent / 'results'))}/{command}"
+        if command.startswith("lsm."):
+            return f"PYTHONPATH={shlex.quote(str(INPUTS.parent / 'python'))}:$PYTHONPATH {python} -m {command}"
         return f"{self.common['postproc']} {command} --overwrite"
 
     def found(self, run):

@@ -14,20 +14,19 @@ results/nature.py uses); the fault is that of results/campaign. Each number is t
   short        share of events that slip in one to three blocks, and of all in half of the blocks or more: whole
   local, local_10  of ruptures of at least 0.01 (a fault: 1e-3), and ten times that: share of those of one to three blocks (units of
                length)
-gamma is that of `postproc summary`.
+gamma is that of `postproc intervals`.
 """
 import csv
 import itertools
 import math
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
+import summary
 from calibrate import LOADING, number, read
 from catalogues import distance, earthquakes, mean_and_error, over_mean
-from text_tables import rows_of
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
@@ -102,9 +101,7 @@ def gammas(postproc, paths, unit, begin):
     """The values gamma_N of each catalogue."""
     if not paths:
         return []
-    words = [word for n in SIZES for word in ("--threshold", f"{unit * 10.0**n:g}")]
-    said = subprocess.run([postproc, "summary", *map(str, paths), "--from", str(begin), *words], capture_output=True, text=True, check=True).stdout
-    rows = rows_of(said.splitlines())
+    rows = summary.rows_of(postproc, paths, [f"{unit * 10.0**n:g}" for n in SIZES], begin=begin)
     return [{f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES} for row in rows]
 
 

@@ -15,13 +15,12 @@ namespace {
 class Fit : public Statistic {
   SizeFitSettings settings_;
   std::vector<std::string> ranges_;
-  bool scaling_ = false, no_comparison_ = false, roll_off_ = false;
-  Resampling bootstrap_;
+  bool no_comparison_ = false, roll_off_ = false;
 
   const char *help() const override {
-    return "Exponents of the event sizes by maximum likelihood, goodness of fit of a power law, "
-           "and, with --scaling, whether the roll-off moves with the length † (the paper "
-           "fitted binned densities: 1.07 for the fault, 0.5 and 1.0 for the block-slider)";
+    return "Exponents of the event sizes by maximum likelihood, and goodness of fit of a power law "
+           "(the paper fitted binned densities: 1.07 for the fault, 0.5 and 1.0 for the "
+           "block-slider)";
   }
 
   void add_options(CLI::App *command) override {
@@ -34,7 +33,7 @@ class Fit : public Statistic {
               "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
               "its header)",
               kind("LO:HI"), shown(""), one_each());
-    add_threshold(group, settings_.threshold, "the range, the search, the picture and the scaling");
+    add_threshold(group, settings_.threshold, "the range, the search and the picture");
     group.flag("--search", settings_.search,
                "Also the range with the smallest Kolmogorov-Smirnov distance, a line of its own "
                "marked 'searched' †");
@@ -47,29 +46,9 @@ class Fit : public Statistic {
         "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
         "on, taken as continuous also where magnitudes are in bins, and 2 ln L of d = 1 over "
         "a power law without end †");
-    group.flag("--scaling", scaling_,
-               "Characteristic size <s^2>/<s> against length for each model: a power law, no "
-               "dependence, or growth that ends at a length †");
-    group.add("--bootstrap", bootstrap_.replicas,
-              "Resampled catalogues for the errors of --scaling", between(2, 1000000));
-    group.call<std::string>(
-        "--block",
-        [this](const std::string &text) {
-          if (text != "auto" && !(text::parse(text, bootstrap_.block) && bootstrap_.block >= 0.0))
-            throw std::invalid_argument("--block " + text::in_quotes(text) +
-                                        ", expected 'auto' or a time of 0 or more");
-        },
-        "Length of the blocks of time that are resampled for these errors, since events cluster "
-        "(model time): auto, from the correlation of each catalogue (Politis and White 2004); or "
-        "0, single events as if independent",
-        shown("auto"));
   }
 
-  std::vector<std::string> endings() const override {
-    std::vector<std::string> files = picture_files({".scaling"});
-    files.insert(files.end(), {".fits.csv", ".rolloff.csv"});
-    return files;
-  }
+  std::vector<std::string> endings() const override { return {".fits.csv", ".rolloff.csv"}; }
 
   /// The form of the roll-off of each catalogue.
   Table roll_offs(const std::vector<EventTable> &tables) const {
@@ -117,28 +96,14 @@ class Fit : public Statistic {
     }
     settings_.compare = !no_comparison_;
     const std::vector<SizeFit> fits = fit_sizes(tables, settings_);
-    std::vector<Scaling> scalings;
-    if (scaling_) {
-      bootstrap_.seed = settings_.seed;
-      scalings = scale_sizes(tables, settings_.threshold, bootstrap_);
-      if (scalings.empty())
-        throw DegenerateData("--scaling: no catalogue gives its length or number of blocks");
-    }
     Results results;
     if (settings_.ranges.empty()) results.say(texts(settings_.threshold, tables));
     results.say(completeness_notes(fits));
     results.say(bin_notes(tables));
     results.numbers("fits", nlohmann::json(fits));
-    for (const Scaling &scaling : scalings) results.say(scaling_text(scaling));
-    if (scaling_) results.numbers("scaling", nlohmann::json(scalings));
-    if (scaling_) results.table("", scaling_table(scalings));
     results.table("", size_fit_table(fits), ".fits");
     if (roll_off_) results.table("roll_off", roll_offs(tables), ".rolloff");
     results.figure("", densities(tables, fits));
-    if (std::any_of(scalings.begin(), scalings.end(), [](const auto &s) { return s.drawable(); }))
-      results.figure("", scaling_figure(scalings), ".scaling");
-    else if (scaling_)
-      results.warn("no catalogue gives a characteristic size, no picture of the scaling");
     return results;
   }
 };

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,13 @@ const char *const description =
     "model\n"
     "units. 'postproc COMMAND --help' lists the options of a command. †: not in the paper, "
     "chosen here.";
+
+/// Where commands and options of earlier versions are.
+const std::map<std::string_view, std::string_view> moved = {
+    {"rupture", "python3 -m lsm.ruptures"},      {"report", "inputs/studies/report.py"},
+    {"units", "units() of Python's module lsm"}, {"spectrum", "spectrum() of Python's module lsm"},
+    {"rates", "rates() of Python's module lsm"}, {"summary", "results/summary.py"},
+    {"--scaling", "python3 -m lsm.scaling"}};
 
 int fail(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
@@ -101,6 +109,10 @@ int main(int argc, char **argv) {
     }
     app.footer(
         "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.");
+    for (int i = 1; i < argc; ++i)
+      if (const auto place = moved.find(argv[i]);
+          place != moved.end() && (i == 1 || argv[i][0] == '-'))
+        return fail(fmt::format("'{}' has left, see {}", place->first, place->second));
     if (argc > 1 && argv[1][0] != '-' &&
         std::none_of(commands.begin(), commands.end(),
                      [argv](const auto &command) { return command.first == argv[1]; }))

@@ -39,7 +39,6 @@ class Series : public Analysis {
   SeriesOptions samples_;
   PickerOptions picker_;
   std::int64_t columns_ = 2000;
-  double window_ = regime_window;
 
   const char *help() const override {
     return "Draws a PE series with the events picked from it: PE with the sizes of the events, its "
@@ -57,10 +56,6 @@ class Series : public Analysis {
               "Columns of the picture †. More than twice as many samples are thinned to the "
               "smallest and largest value in each column, of which there are up to twice as many",
               between(std::int64_t{10}, std::int64_t{1000000}));
-    group.add("--window", window_,
-              "Time over which the rise and the fall of PE are measured for the saw-tooth "
-              "number, which distinguishes stick-slip from creep (model time) †",
-              positive());
     group.add("--export", text_,
               "Writes the samples of the window as text, too: columns step, time and pe with 17 "
               "significant digits, after the header of the series as comment lines",
@@ -79,9 +74,11 @@ class Series : public Analysis {
   /// Everything that is needed from the series, collected in one pass.
   struct Samples {
     explicit Samples(std::int64_t columns) : curves(columns) {}
-    SeriesRegime regime;
+    std::int64_t count = 0, picked = 0;  // samples and events in the window
+    Extent times;
     Thinner curves;
     Table events{"t_start,t_end,pe_start,pe_end,size"};
+    std::string model;
     std::shared_ptr<SeriesText> text;  ///< nullptr: not requested
     PickerSettings picker;
   };
@@ -94,55 +91,52 @@ class Series : public Analysis {
     EventFilter filter(filter_settings(picker_, series.info()));
     Samples out(columns_);
     out.picker = picker.settings();
-    RegimeMeter meter(window_, series.spacing(), length_of(series.info()));
-    Extent times;
+    Extent &times = out.times;
     if (!text_.empty()) out.text = std::make_shared<SeriesText>(text_, series.info());
     double before = nan;
     Event event;
-    out.regime = series.about();
-    out.regime.samples = series.read_some([&](std::int64_t step, double time, double pe) {
+    out.model = series.info().model;
+    out.count = series.read_some([&](std::int64_t step, double time, double pe) {
       if (!is_before(time, samples_.from_time)) times.add(time);
-      if (picker.push(step, time, pe, event) && filter.passes(event) && event.t_end >= times.lo) {
+      if (picker.push(step, time, pe, event) && filter.passes(event) && event.t_end >= times.lo)
         out.events.row(event.t_start, event.t_end, event.pe_start, event.pe_end, event.size);
-        meter.event(std::max(event.t_start, times.lo), event.t_end);
-      }
       if (!times.empty()) {
-        meter.add(pe);
         if (out.text) out.text->add(step, time, pe);
         out.curves.add(time, {pe, pe - before, std::isnan(before) ? nan : picker.rate()});
       }
       before = pe;
     });
     if (out.text) out.text->flush();
-    out.regime.events = out.events.rows();
+    out.picked = out.events.rows();
     if (picker.in_event())
       out.events.row(picker.state().t_start, times.hi, picker.state().pe_start, before, nan);
-    out.regime.first = times.lo;
-    out.regime.last = times.hi;
-    out.regime.take(meter);
     return out;
   }
 
   Results find() override {
     Samples samples = read();
-    const SeriesRegime &regime = samples.regime;
+    const Extent &times = samples.times;
     std::string title = title_;
     if (title.empty())
-      title = fmt::format("{} events, time {} to {}", regime.events, short_number(regime.first, 7),
-                          short_number(regime.last, 7));
-    Figure figure = series_figure(samples.curves, title, regime.first, regime.last,
-                                  regime.events > 0, samples.picker);
+      title = fmt::format("{} events, time {} to {}", samples.picked, short_number(times.lo, 7),
+                          short_number(times.hi, 7));
+    Figure figure = series_figure(samples.curves, title, times.lo, times.hi, samples.picked > 0,
+                                  samples.picker);
     const std::string settings = fmt::format(
         "picker: {}, lambda = {}", to_string(samples.picker.reading), samples.picker.lambda);
-    figure.table.comment("PE series of model " + regime.model + ", model units; " + settings);
+    figure.table.comment("PE series of model " + samples.model + ", model units; " + settings);
     if (samples.curves.thinned())
       figure.table.comment(
           fmt::format("{} samples thinned: smallest and largest values in each of {} columns, in "
                       "order of time",
-                      regime.samples, samples.curves.groups()));
+                      samples.count, samples.curves.groups()));
     samples.events.comment("events picked in the window; empty size: not ended yet; " + settings);
     Results results;
-    results.table("series", regime_table({regime}));
+    results.say(fmt::format("{}: {} samples, {} events, time {} to {}\n", series_, samples.count,
+                            samples.picked, short_number(times.lo, 7), short_number(times.hi, 7)));
+    Table counts("samples,events,first,last");
+    counts.row(samples.count, samples.picked, times.lo, times.hi);
+    results.table("series", std::move(counts));
     results.table("events", std::move(samples.events), "-events");
     if (samples.text) results.file(text_, [text = samples.text] { text->close(); });
     results.figure("", std::move(figure));

@@ -9,39 +9,6 @@
 
 namespace LSM::postproc {
 
-void SeriesRegime::take(const RegimeMeter &meter) {
-  try {
-    regime = meter.result();
-  } catch (const DegenerateData &error) {
-    why = error.what();
-  }
-}
-
-Table regime_table(const std::vector<SeriesRegime> &series) {
-  TableOf<SeriesRegime> table;
-  // Makes the cells of a number of the regime, NaN where the regime is not known.
-  const auto of = [](double Regime::*number) {
-    return [number](const SeriesRegime &s) { return s.regime ? *s.regime.*number : NAN; };
-  };
-  table.show("PE series", &SeriesRegime::path);
-  table.show("model", [](auto &s) { return model_name(s.model); });
-  table.show("length or blocks", &SeriesRegime::length, 6);
-  table.show("times", [](auto &s) {
-    return fmt::format("{} to {}", short_number(s.first, 6), short_number(s.last, 6));
-  });
-  table.column("samples", "samples", &SeriesRegime::samples);
-  table.column("events", "events", &SeriesRegime::events);
-  table.column("regime", "regime", [](auto &s) { return s.regime ? name_of(*s.regime) : ""; });
-  table.column("saw_tooth", "saw-tooth", of(&Regime::saw_tooth));
-  table.column("stick_slip_above", "stick-slip above", of(&Regime::above), 3);
-  table.column("drop_over_load", "fastest fall / load", of(&Regime::drop_over_load));
-  table.column("time_in_events", "share of the time within events", of(&Regime::time_in_events));
-  table.column("mean_duration", "mean duration of events (model time)", of(&Regime::mean_duration));
-  table.column("why", "degenerate", &SeriesRegime::why);
-  for (const SeriesRegime &one : series) table.row(one);
-  return Table(std::move(table));
-}
-
 namespace {
 
 /// gnuplot range of an axis, with some space around the values.

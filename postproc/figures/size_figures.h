@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file size_figures.h
-/// Event sizes: their probability densities (paper: Figs. 7, 12, 13), and fitted exponents and
-/// finite-size scaling as tables, JSON and a figure.
+/// Event sizes: their probability densities (paper: Figs. 7, 12, 13), and fitted exponents as a
+/// table and JSON.
 #ifndef LSM_POSTPROC_SIZE_FIGURES_H
 #define LSM_POSTPROC_SIZE_FIGURES_H
 
@@ -43,21 +43,6 @@ void to_json(nlohmann::json &out, const SizeFit &fit);
 /// The fitted law as a line for size_density_figure(), scaled to the density of the whole
 /// catalogue.
 PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density);
-
-/// Name of the model, with the stiffness of its leaf springs and the kind of events.
-std::string name_of(const Scaling &scaling);
-/// States in one sentence whether the characteristic size depends on the length.
-std::string verdict(const Scaling &scaling);
-/// verdict() with the model, the smallest size, and the method of the errors.
-std::string scaling_text(const Scaling &scaling);
-/// Characteristic sizes and lengths, a row per catalogue.
-Table scaling_table(const std::vector<Scaling> &scalings);
-void to_json(nlohmann::json &out, const Scaling &scaling);
-
-/// Characteristic size s* against length with error bars, the fitted power law, the constant and,
-/// where it is preferred, the law of growth that saturates.
-/// \throws DegenerateData if no point can be drawn
-Figure scaling_figure(const std::vector<Scaling> &scalings);
 
 }  // namespace LSM::postproc
 

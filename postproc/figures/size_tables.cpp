@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Fitted exponents and finite-size scaling as tables and JSON.
+// Fitted exponents as a table and JSON.
 #include <algorithm>
 #include <cmath>
 
@@ -123,100 +123,6 @@ void to_json(json &out, const SizeFit &fit) {
                {"log_likelihood", law.log_likelihood},
                {"comparisons", fit.comparisons}});
   if (!std::isnan(fit.p.value)) out.update({{"p", fit.p.value}, {"p_error", fit.p.error}});
-}
-
-Table scaling_table(const std::vector<Scaling> &scalings) {
-  struct Line {
-    std::int64_t curve;
-    const std::string &label, &model;
-    const SizePoint &point;
-  };
-  TableOf<Line> table;
-  table.show("catalogue", [](auto &line) { return line.label; });
-  table.data("curve", [](auto &line) { return line.curve; });
-  table.data("model", [](auto &line) { return line.model; });
-  table.column(
-      "length", "length L", [](auto &line) { return line.point.length; }, 6);
-  table.show("events", [](auto &line) { return line.point.n; });
-  table.show("s* (model energy)", [](auto &l) { return Measured{l.point.s_star, l.point.error}; });
-  table.data("s_star", [](auto &line) { return line.point.s_star; });
-  table.data("error", [](auto &line) { return line.point.error; });
-  table.data("events", [](auto &line) { return line.point.n; });
-  table.column(
-      "error_independent", "error if events were independent",
-      [](auto &line) { return line.point.error_independent; }, 2);
-  table.show("blocks", [](auto &line) { return line.point.blocks; });
-  table.column(
-      "block", "their length (model time)", [](auto &line) { return line.point.block; }, 3);
-  table.data("blocks", [](auto &line) { return line.point.blocks; });
-  table.data("label", [](auto &line) { return line.label; });
-  table.show("degenerate", [](auto &line) { return line.point.why; });
-  table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
-  table.comment(
-      "block: length of the blocks of the catalogue that are resampled, model time; 0: single "
-      "events; error_independent: if the events were independent");
-  std::int64_t number = 0;
-  for (const Scaling &scaling : scalings) {
-    ++number;
-    for (std::size_t i = 0; i < scaling.points.size(); ++i)
-      table.row({number, scaling.labels[i], scaling.model, scaling.points[i]});
-  }
-  return Table(std::move(table));
-}
-
-static void to_json(json &out, const Saturation &end) {
-  out = {{"m", end.m}, {"L_c", end.L_c},      {"L_c_error", end.se_L_c}, {"s_inf", end.s_inf},
-         {"D", end.D}, {"D_error", end.se_D}, {"chi2", end.chi2}};
-}
-
-void to_json(json &out, const Scaling &scaling) {
-  const ScalingFit &fit = scaling.fit;
-  const Saturation &end = fit.saturation;
-  out = {{"model", scaling.model},
-         {"kl", scaling.stiffness},
-         {"events", scaling.kind},
-         {"threshold", scaling.threshold.size},
-         {"threshold_from", text(scaling.threshold)},
-         {"points", json::array()},
-         {"degenerate", fit.degenerate},
-         {"verdict", verdict(scaling)}};
-  for (std::size_t i = 0; i < scaling.points.size(); ++i) {
-    const SizePoint &point = scaling.points[i];
-    json &one = out["points"].emplace_back(
-        json{{"label", scaling.labels[i]}, {"length", point.length}, {"n", point.n}});
-    add_numbers(one, point,
-                {{"s_star", point.s_star},
-                 {"error", point.error},
-                 {"error_independent", point.error_independent},
-                 {"block", point.block},
-                 {"blocks", point.blocks}});
-  }
-  if (fit.degenerate) return;
-  out.update({{"A", fit.A},
-              {"A_error", fit.se_A},
-              {"D", fit.D},
-              {"D_error", fit.se_D},
-              {"chi2", fit.chi2},
-              {"error_scale", error_scale(fit.chi2, fit.points - 2)},
-              {"constant", fit.constant},
-              {"constant_error", fit.se_constant},
-              {"chi2_constant", fit.chi2_constant},
-              {"aicc", fit.aicc},
-              {"aicc_constant", fit.aicc_constant},
-              {"preferred", to_string(fit.preferred)}});
-  if (end.degenerate)
-    out["saturation_degenerate"] = end.why;
-  else
-    out.update({{"s_inf", end.s_inf},
-                {"s_inf_error", end.se_s_inf},
-                {"L_c", end.L_c},
-                {"L_c_error", end.se_L_c},
-                {"D_saturation", end.D},
-                {"D_saturation_error", end.se_D},
-                {"chi2_saturation", end.chi2},
-                {"aicc_saturation", end.aicc}});
-  for (const Saturation &one : fit.bends)
-    if (!one.degenerate) out["bends"].push_back(one);
 }
 
 }  // namespace LSM::postproc

@@ -32,15 +32,6 @@ SeriesInput::SeriesInput(const std::string &path, const SeriesOptions &options)
                                             options.from_time, options.to_time));
 }
 
-SeriesRegime SeriesInput::about() const {
-  SeriesRegime about;
-  about.path = path_;
-  about.model = info().model;
-  for (const char *const key : {"length", "blocks"})
-    if (const std::string *text = info().find(key)) text::parse(*text, about.length);
-  return about;
-}
-
 std::int64_t SeriesInput::read(const Use &use) {
   std::int64_t step = 0, inside = 0;
   double time = 0.0, pe = 0.0;

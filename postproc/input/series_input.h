@@ -12,7 +12,6 @@
 #include "files/pe_series.h"
 #include "options.h"
 #include "picker_options.h"
-#include "series_figures.h"
 
 namespace LSM::postproc {
 
@@ -42,9 +41,6 @@ class SeriesInput {
   const PeSeriesInfo &info() const { return reader_.info(); }
   /// Model time between samples.
   double spacing() const { return info().dt * static_cast<double>(info().stride); }
-
-  /// Returns path, model and length (or number of blocks); other members have their defaults.
-  SeriesRegime about() const;
 
   /// Reads the samples up to the end of the window. Reports a truncated last sample on standard
   /// error (lenient).

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numeric>
 
-#include "finite_size.h"
+#include "block_length.h"
 #include "replicas.h"
 
 namespace LSM::postproc {

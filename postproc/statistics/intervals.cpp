@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "intervals.h"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_statistics_double.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -27,18 +24,6 @@ std::string events_from_text(bool earthquakes, double least) {
 
 std::vector<double> inter_event_times(const EventTable &events, double threshold) {
   return differences(column_from(events, threshold, &Event::t_start));
-}
-
-RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
-  RankCorrelation found;
-  if (times.size() < 5) return found;
-  const std::size_t n = times.size() - 1;
-  std::vector<double> work(2 * n);
-  found.rho = gsl_stats_spearman(times.data(), 1, times.data() + 1, 1, n, work.data());
-  const double freedom = static_cast<double>(n) - 2.0;
-  const double t = std::fabs(found.rho) * std::sqrt(freedom / (1.0 - found.rho * found.rho));
-  if (!std::isnan(found.rho)) found.p = std::isinf(t) ? 0.0 : 2.0 * gsl_cdf_tdist_Q(t, freedom);
-  return found;
 }
 
 int shuffles_for(std::size_t times) {

@@ -123,16 +123,6 @@ struct IntervalCurve {
 /// the threshold are left out.
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
 
-/// Spearman's rank correlation of each time with the next one, and its two-sided p-value for
-/// independent series (Student's t). It tells clusters and regular sequences from independent
-/// events whatever the density of the times is. NaN for fewer than 4 pairs or if all times are
-/// equal.
-struct RankCorrelation {
-  double rho = NAN, p = rho;
-};
-/// Correlates successive inter-event times, given in order of time.
-RankCorrelation successive_rank_correlation(const std::vector<double> &times);
-
 /// Fits a density of inter-event times by one of the two methods.
 /// \param times above 0
 /// \param bins their density, for least squares

@@ -61,16 +61,6 @@ inline double mean_of(const std::vector<double> &values) {
   return mean_of(values.data(), values.size());
 }
 
-/// Mean of the values weighted with themselves: sum of squares over sum.
-inline double self_weighted_mean(const std::vector<double> &values) {
-  NeumaierSum sum, squares;
-  for (const double x : values) {
-    sum.add(x);
-    squares.add(x * x);
-  }
-  return squares.value() / sum.value();
-}
-
 /// The values minus their mean.
 inline std::vector<double> centred(std::vector<double> values) {
   const double mean = mean_of(values);

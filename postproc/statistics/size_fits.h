@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file size_fits.h
-/// Exponents of the event sizes (paper: Sect. 4.2), and whether their roll-off moves with the
-/// length of the fault, a question that the paper leaves open.
+/// Exponents of the event sizes (paper: Sect. 4.2), and the form of their roll-off.
 #ifndef LSM_POSTPROC_SIZE_FITS_H
 #define LSM_POSTPROC_SIZE_FITS_H
 
@@ -11,9 +10,9 @@
 #include <vector>
 
 #include "event_table.h"
-#include "finite_size.h"
 #include "generalised_gamma.h"
 #include "power_law.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -63,27 +62,6 @@ struct RollOff {
 };
 /// \param least smallest size that is used (energy)
 RollOff roll_off(const EventTable &table, double least);
-
-/// Characteristic sizes of the catalogues of one model against the length.
-struct Scaling {
-  std::string model;
-  std::string stiffness;  ///< block-slider: kl in the header; "" if absent
-  std::string kind;       ///< of the events, see EventTable::kind()
-  SmallestSize threshold;
-  std::vector<std::string> labels;
-  std::vector<SizePoint> points;
-  ScalingFit fit;
-
-  bool drawable() const;  ///< at least one point is not degenerate
-  bool by_event() const;  ///< no error comes from blocks of time
-};
-
-/// Groups the catalogues by model, stiffness of the leaf springs and kind of events, and fits the
-/// dependence on length of each group; catalogues without a length are left out.
-/// \param threshold smallest size; raised to where all catalogues of the same model and kind are
-/// complete
-std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
-                                 const Resampling &resampling);
 
 }  // namespace LSM::postproc
 

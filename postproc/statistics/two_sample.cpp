@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "finite_size.h"
+#include "block_length.h"
 #include "replicas.h"
 
 namespace LSM::postproc {

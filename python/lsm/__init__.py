@@ -61,8 +61,8 @@ def _number(path, header, name, kind=float):
         raise ValueError(f"{path}: parameter '{name}' {said}, expected a number") from None
 
 
-def read_catalogue(path):
-    """Reads the events of a catalogue; columns of integers are int64, all others float64."""
+def read_catalogue(path, lenient=False):
+    """Reads the events of a catalogue; columns of integers are int64, all others float64. lenient: leaves out lines that cannot be read."""
     lines = _bytes(path).decode("utf-8", "replace").split("\n")
     lines.pop()  # the incomplete last line, or the empty text after the last line end
     if not lines or not lines[0].startswith("# lsm-catalogue "):
@@ -82,7 +82,8 @@ def read_catalogue(path):
                 raise ValueError
             rows.append(tuple(int(field) if kind is np.int64 else float(field) for field, kind in zip(fields, kinds)))
         except ValueError:
-            raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
+            if not lenient:
+                raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
     return Table(np.array(rows, list(zip(names, kinds))), _parameters(lines[:first]))
 
 

@@ -11,7 +11,6 @@ its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip
 (BASE-momentrate). Each is a table, BASE-NAME.csv, and its picture, .png and .svg. Quantities are in model units.
 """
 import argparse
-import csv
 import math
 import sys
 from pathlib import Path
@@ -20,31 +19,19 @@ from typing import NamedTuple
 import numpy as np
 
 import lsm
-from lsm.drawing import axis, draw, quote
+from lsm.drawing import KEY, Figure, axis, draw_all, quote
 
 COLUMNS = ["slip_moment", "rupture_length", "x_hypocentre", "x_begin", "stress_drop"]
 MOST, LARGEST = 20000, 1000  # points of a catalogue in scatter plots: beyond, the largest ones and every n-th
 FEWEST = 3  # ruptures for a fit
 MOST_ROWS, MOST_COLUMNS, MOST_OUTLINES = 700, 1000, 300  # of the picture of slip velocities
-MADE = "made by lsm.ruptures: "
 FLAME = "set palette defined (0 '#ffffff', 1 '#fff3c4', 2 '#fdc86b', 3 '#f3883c', 4 '#c7443c', 5 '#7a1f63', 6 '#1d0b3a')\n"
 VELOCITIES = FLAME + """set cbrange [0:3]
 set cbtics ('1' 0, '10' 1, '100' 2, '1000' 3)
 set cblabel 'Slip velocity / driving velocity' offset 1.5
 unset grid
 """
-KEY = "set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1\n"
 MOMENT, LENGTH, PLACE = "Slip moment (model units)", "Length of the rupture (model units)", "Position along the fault (model units)"
-
-
-class Figure(NamedTuple):
-    """A table and the script that draws it. rows: lists of cells; comments[0] says what it is."""
-    ending: str
-    comments: list
-    names: str
-    rows: list
-    script: str = ""  # "": a table only
-    size: tuple = (900, 600)
 
 
 class Catalogue(NamedTuple):
@@ -541,24 +528,6 @@ def plane_figures(history, one, begin, end, arrival):
 # ---- the program
 
 
-def write(base, figures, inputs, picture):
-    """Writes tables and pictures; nothing if a table would replace a file of something else. \\raises ValueError"""
-    for one in figures:
-        path = Path(f"{base}{one.ending}.csv")
-        if path.exists() and (any(path.samefile(name) for name in inputs) or not path.read_bytes().startswith(f"# {MADE}".encode())):
-            raise ValueError(f"{path} exists and is not from an earlier run of this program, expected another -o")
-    for one in figures:
-        with open(f"{base}{one.ending}.csv", "w", newline="", encoding="utf-8") as file:
-            file.writelines(f"# {line}\n" for line in [MADE + one.comments[0], *one.comments[1:]])
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(one.names.split(","))
-            table.writerows([("" if cell != cell else f"{cell:.12g}") if isinstance(cell, float) else cell for cell in row] for row in one.rows)
-    for one in figures:
-        if one.script and picture:
-            draw(f"{base}{one.ending}", one.script, *one.size)
-        print(f"wrote {base}{one.ending}.csv" + ", .png, .svg" * bool(one.script and picture))
-
-
 def main(catalogues, label, history, begin, end, p_speed, s_speed, arrival, output, no_picture):
     if label and len(label) != len(catalogues):
         raise ValueError(f"--label {len(label)} times, expected once for each of {len(catalogues)} catalogues")
@@ -581,7 +550,7 @@ def main(catalogues, label, history, begin, end, p_speed, s_speed, arrival, outp
         if not history or not slip.plane:  # a rupture of a plane is often the only one of its run
             raise
         print(f"no figures of all ruptures: {error}")
-    write(output, figures, [*catalogues, *([history] if history else [])], not no_picture)
+    draw_all("lsm.ruptures", output, figures, [*catalogues, *([history] if history else [])], not no_picture)
 
 
 def parser():
@@ -604,5 +573,7 @@ def parser():
 if __name__ == "__main__":
     try:
         main(**vars(parser().parse_args()))
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        sys.exit(f"lsm.ruptures: {error.filename}: {error.strerror}")
+    except ValueError as error:
         sys.exit(f"lsm.ruptures: {error}")

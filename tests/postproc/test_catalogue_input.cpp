@@ -178,11 +178,6 @@ TEST_F(CatalogueInput, KindsOfEventsAreToldApart) {
   EXPECT_EQ(tables[2].kind(), "pe");
   EXPECT_EQ(tables[0].completeness, 0.003);
   EXPECT_EQ(tables[1].completeness, 0.0);
-  const std::vector<Scaling> scalings = scale_sizes(tables, Threshold(0.0), Resampling());
-  ASSERT_EQ(scalings.size(), 3u);
-  EXPECT_EQ(name_of(scalings[0]), "fault, ruptures");
-  EXPECT_EQ(name_of(scalings[1]), "fault, place");
-  EXPECT_EQ(name_of(scalings[2]), "fault");
 }
 
 TEST_F(CatalogueInput, CompletenessHasToBeASize) {

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import rows_of, table, write_catalogue
+from data_files import table, write_catalogue
 from programs import SOURCE, refused, run
 
 CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
@@ -166,7 +166,7 @@ def test_bins_are_recognized(postproc, work):
     for command in "magnitudes q.csv -o m --no-picture --overwrite", "fit q.csv -o f --no-picture --replicas 0 --overwrite":
         assert "in bins of" not in run(postproc, command).out
     write_catalogue("model.csv", np.arange(100.0), np.geomspace(1e-3, 1, 100))
-    for command in "fit", "histograms", "summary", "explore":
+    for command in "fit", "histograms", "explore":
         refused(postproc, f"{command} model.csv --magnitude-bin 0.1 -o x", "--magnitude-bin, but no catalogue is of earthquakes")
 
 
@@ -184,7 +184,7 @@ def test_magnitudes_in_tenths_have_the_right_b(postproc, work):
 
 @pytest.mark.parametrize("width", [0.1, 0.2])
 def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
-    """1 + b / 1.5, by fit, summary and explore; the law is not rejected."""
+    """1 + b / 1.5, by fit and explore; the law is not rejected."""
     magnitudes = gutenberg_richter(20000, width)
     quakes("q.csv", magnitudes)
     # The likelihood of a geometric series over the bins from M2 to M9 has its maximum where its mean is that of the data.
@@ -211,26 +211,10 @@ def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     run(postproc, "fit q.csv --search --threshold M2 --replicas 0 --no-picture -o f --overwrite")
     searched = next(row for row in table("f.fits.csv") if row["searched"] == "yes")
     assert abs(float(searched["exponent"]) - exponent) < 4 * float(searched["standard_error"])
-    said = run(postproc, "summary q.csv --threshold M2")
-    row = next(rows_of(said.out.splitlines()))
-    of_summary = [float(value) for name, value in row.items() if name.startswith("exponent_")]
-    assert of_summary == pytest.approx([exponent], abs=0.02) and "magnitudes in bins of" in said.err
     run(postproc, "explore q.csv -o explore.html")
     data = json.loads(re.search(r'id="data">(.*?)</script>', Path("explore.html").read_text(), re.S).group(1))
     laws = [one["law"] for one in data["runs"][0]["kinds"][0]["thresholds"] if one["law"]["n"] > 5000]
     assert laws and all(abs(law["value"] - exponent) < 4 * law["error"] for law in laws)
-
-
-def test_smallest_magnitude_is_not_lost_in_a_name(postproc, work):
-    """The range of summary is exact, whatever the name of its column: 10^(1.5 x 2.1) is 1412.5375..., and 1412.54 in the name."""
-    quakes("q.csv", [f"{2.1 + 0.1 * (k % 7) ** 2 / 9:.1f}" for k in range(300)])
-    smallest = sum(1 for k in range(300) if f"{2.1 + 0.1 * (k % 7) ** 2 / 9:.1f}" == "2.1")
-    assert smallest > 50
-    run(postproc, "fit q.csv --replicas 0 --no-picture -o f")
-    run(postproc, "summary q.csv -o s.csv")
-    row, fit = table("s.csv")[0], table("f.fits.csv")[0]
-    of_summary = next(value for name, value in row.items() if name.startswith("exponent_"))
-    assert float(of_summary) == pytest.approx(float(fit["exponent"]), rel=1e-5)
 
 
 def test_histogram_has_whole_bins_of_magnitudes(postproc, work):
@@ -301,7 +285,6 @@ def test_no_events(postproc, work):
     for command in "magnitudes", "fit", "histograms", "intervals":
         refused(postproc, f"{command} empty.csv -o o --no-picture", "empty.csv: no events, nothing to draw")
         refused(postproc, f"{command} q.csv -o o --no-picture --min-magnitude 5", r"q.csv: no events \(0 left out by time, 40 by size\)")
-    refused(postproc, "summary empty.csv", "empty.csv: no events")
 
 
 def test_ties(postproc, work):

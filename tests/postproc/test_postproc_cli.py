@@ -571,42 +571,6 @@ def test_progress(do, postproc):
         child.send_signal(signal.SIGTERM)
 
 
-def test_summary(do, no):
-    """Sizes span four decades, times are uneven, and every seventh event lasts one step."""
-    random = np.random.default_rng(3)
-    i, t, times, ends, steps = np.arange(1, 401), 0.0, [], [], []
-    for n in i:
-        t += 1 + int(-40 * math.log(1 - random.random())) / 2
-        long = 8 if n % 7 else 1
-        times.append(t)
-        steps.append((int(2 * t), int(2 * t) + long))
-        t += long * 0.5
-        ends.append(t)
-    size = 1e-5 * np.exp(9.2 * random.random(400))
-    write_catalogue("c.csv", times, size, dict(model="lsm", dt=0.5, length=40, kt=0.2), t_end=ends, step_start=[a for a, _ in steps],
-                    step_end=[b for _, b in steps], pe_start=2 + size, pe_end=[2] * 400)
-    do("summary c.csv --threshold 0 1e-3 --range 1e-4:1e-2 --parameter kt seed --window 10:20 -o s.csv")
-    found = table("s.csv")[0]
-    assert found["kt"] == "0.2" and found["seed"] == ""
-    _, events = read_catalogue("c.csv")
-    apart = np.diff(events["t_start"][events["size"] >= 1e-3])
-    wanted = {
-        "events_0.001": len(apart) + 1, "mean_time_0.001": apart.mean(), "share_10:20_0.001": np.mean((apart >= 10) & (apart < 20)),
-        "brief": np.mean(events["step_end"] - events["step_start"] <= 3), "largest": size.max(), "released": size.sum()
-    }
-    for name, value in wanted.items():
-        assert float(found[name]) == pytest.approx(value, rel=1e-5), name
-    # The estimators are those of fit and intervals.
-    do("fit c.csv --range 1e-4:1e-2 --replicas 0 --no-comparison --json fit.json --no-picture")
-    do("intervals c.csv --threshold 1e-3 --method likelihood --delta 1 --replicas 0 -o times --no-picture")
-    exponent = re.search(r'"exponent": ([-0-9.e]+)', Path("fit.json").read_text())[1]
-    assert float(found["exponent_1e-4:1e-2"]) == pytest.approx(float(exponent), rel=1e-5)
-    gamma = next(row["gamma"] for row in table("times.table1.csv") if row["origin"] == "ours")
-    assert float(found["gamma_0.001"]) == pytest.approx(float(gamma), rel=1e-5)
-    no("c.csv: is read by this command", "summary c.csv -o c.csv")
-    no("--range '2', expected LO:HI", "summary c.csv --range 2")
-
-
 def test_outputs_are_not_inputs(no, work):
     """An input is not replaced, whichever of the outputs would do so."""
     catalogue("good.csv")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import edit, power_law, rows, table, write_catalogue, write_history, write_series
+from data_files import power_law, rows, table, write_catalogue, write_history, write_series
 from figure_data import fault, pictures, ruptures, said, slider
 from programs import refused, run
 
@@ -145,7 +145,6 @@ def test_fit(do, no):
     # The bin that contains the smallest size is incomplete and does not count.
     assert max(float(row["size"]) for row in table("a.csv")) >= 0.8
     no("no bin of sizes from 0.8 on has an event", "fit a.csv --threshold 0.8 --replicas 0 --no-picture -o x")
-    do("fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture").printed("degenerate: ")
     no("expected LO above 0", "fit a.csv --range :1 -o x")
     # Events left out below a size do not make the law flatter, as the fit begins there.
     do("fit a.csv --min-size 0.01 --range 1e-3:1 --range 1e-3:0.01 --replicas 0 --no-comparison -o m --no-picture")
@@ -157,70 +156,6 @@ def test_fit(do, no):
                     event_id=[row["event_id"] for row in large])
     do("fit picked.csv --range 1e-3:1 --replicas 0 --no-comparison -o m --no-picture")
     said("m.fits.csv", "^lsm,0.01,1,")
-
-
-LENGTHS = 100, 200, 400, 800, 1600
-
-
-@pytest.fixture
-def growing():
-    """Writes g*.csv with a roll-off at a size proportional to the length, and n*.csv, at the same size."""
-    for length in LENGTHS:
-        fault(f"g{length}.csv", power_law(1.2, 1e-3, length / 100, 3000), length)
-        fault(f"n{length}.csv", power_law(1.2, 1e-3, 1, 3000), length)
-
-
-SCALING = "--range 1e-3:0.1 --replicas 0 --scaling "
-
-
-def files(kind, lengths=LENGTHS):
-    return "fit " + " ".join(f"{kind}{length}.csv" for length in lengths) + " "
-
-
-def number_in(path, name):
-    return float(re.search(f'"{name}": ([-0-9.e+]+)', Path(path).read_text())[1])
-
-
-def test_scaling(do, no, growing):
-    grown = do(files("g"), SCALING, "--json g.json -o g")
-    pictures("g.scaling")
-    grown.printed(r"grows with the length \(")
-    assert number_in("g.json", "D") == pytest.approx(1, rel=0.1)
-    none = do(files("n"), SCALING, "--json n.json -o n")
-    none.printed("shows no significant dependence")
-    said("n.json", '"preferred": "no dependence on the length"')
-    for kind in "g", "n":
-        assert "growth up to L_c" not in Path(f"{kind}.scaling.gp").read_text(), "a curve of growth that ends without such growth"
-    # Errors are by blocks of time, the length of which can be given, or event by event.
-    none.printed("bootstrap errors, blocks of time")
-    none.printed("error if events were independent blocks")
-    two = files("g", (100, 200)) + SCALING
-    do(two, "--block 1000 --json b.json -o b --no-picture")
-    for row in curve("b.scaling.csv"):
-        assert 990 < row[8] < 1010 and row[9] == 30, row
-    said("b.json", '"blocks": 30', '"error_independent": ')
-    do(two, "--block 0 -o b --no-picture").printed("single events as if independent")
-    for row in curve("b.scaling.csv"):
-        assert row[8] == row[9] == 0 and 0.8 * row[7] < row[5] < 1.2 * row[7], row
-    no("block 'long', expected 'auto' or a time of 0 or more", "fit g100.csv --scaling --block long -o x")
-    no("block of 20000, expected 0 or .* to half of the catalogue", "fit g100.csv --scaling --block 20000 -o x")
-
-
-def test_scaling_of_other_growth(do, growing):
-    # For growth that does not follow a power law, s* is 1, 1, 1, 1, 16.
-    edit("g1600.csv", "n3200.csv", ("# length = 1600", "# length = 3200"))
-    do(files("n", (100, 200, 400, 800, 3200)), SCALING, "-o p --no-picture").printed("grows with the length, but not as a power law")
-    # For growth that ends, s* is 1, 2, 4, 4, 4, 4, 4.
-    for length in 800, 1600, 3200, 6400:
-        edit("g400.csv", f"s{length}.csv", ("# length = 400", f"# length = {length}"))
-    do("fit g100.csv g200.csv g400.csv s800.csv s1600.csv s3200.csv s6400.csv", SCALING,
-       "--json s.json -o s").printed(r"grows with the length up to L_c only \(")
-    pictures("s.scaling")
-    said("s.scaling.gp", "growth up to L_c = ")
-    said("s.json", '"preferred": "growth that ends at a length"')
-    assert number_in("s.json", "L_c") == pytest.approx(350, rel=0.25)
-    longest = [row for row in curve("s.scaling.csv") if row[3] == 6400]
-    assert number_in("s.json", "s_inf") == pytest.approx(longest[0][4], rel=0.03)
 
 
 def test_completeness(do, no):
@@ -251,11 +186,9 @@ def test_completeness(do, no):
     said("i.csv", "^# sizes >= 0.01, completeness in the header")
     said("i.table1.csv", f"^ours,0.01,{above - 1},")
     do("intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4").printed("sizes >= 0.0001, as given 999 ")
-    fitted = do("fit known.csv --replicas 0 --scaling -o f --no-picture --json f.json")
+    fitted = do("fit known.csv --replicas 0 -o f --no-picture")
     fitted.printed("smallest size, fault: 0.01, completeness in the header")
-    fitted.printed(f"fault, length 120 120 {above} ")
     assert all(row[1] >= 0.01 for row in exponents("f.fits.csv")), "the search begins too low"
-    said("f.json", '"threshold_from": "0.01, completeness')
     assert "may depend on the time step" not in fitted.out, "a note without a reason"
     do("fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture").printed("below its completeness of 0.01")
     said("f.fits.csv", "^lsm,0.001,1,no,1000,")
@@ -310,19 +243,12 @@ def test_few(do, no):
         assert cells[3] == cells[5] == cells[7] == cells[9] == "" and cells[-1] != "", "numbers of degenerate fits"
     said("i.clustering.csv", '^"fault, length 120",0.0001,0,,,')
     do("fit few.csv --range 1e-3:1 -o f").printed("degenerate")
-    # Without a characteristic size in any catalogue there is no picture of the scaling, but all others.
-    scaled = do("fit one.csv few.csv --scaling -o z")
-    pictures("z")
-    scaled.warned("no picture of the scaling")
-    assert sum("at least 10 needed" in line for line in scaled.out.splitlines()) == 4, "both have neither an exponent nor a size"
-    assert not Path("z.scaling.csv").exists(), "a table without a picture"
 
 
 # ---- whatever a name or a label holds, nothing is run and all is drawn
 DRAW = {
-    "histograms": "histograms a.csv b.csv", "intervals": "intervals a.csv b.csv --replicas 0",
-    "fit": "fit a.csv b.csv --replicas 0 --scaling --bootstrap 2 --range 1e-2:1", "magnitudes": "magnitudes a.csv b.csv --threshold 1e-3",
-    "aftershocks": "aftershocks a.csv b.csv --replicas 0", "series": "series pe.bin"
+    "histograms": "histograms a.csv b.csv", "intervals": "intervals a.csv b.csv --replicas 0", "fit": "fit a.csv b.csv --replicas 0 --range 1e-2:1",
+    "magnitudes": "magnitudes a.csv b.csv --threshold 1e-3", "aftershocks": "aftershocks a.csv b.csv --replicas 0", "series": "series pe.bin"
 }
 
 

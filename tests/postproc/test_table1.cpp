@@ -69,19 +69,6 @@ TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
   EXPECT_NEAR(variation(gamma_events(0.25, 1.0, 40000)), 2.0, 0.1);
 }
 
-TEST(Intervals, RankCorrelationOfSuccessiveTimes) {
-  // Ranks 3 1 4 2 against 1 3 2 4: 1 - 6 (4 + 4 + 4 + 4) / (4 (16 - 1)); with two degrees of
-  // freedom the two-sided p is 1 - |rho|.
-  const RankCorrelation by_hand = successive_rank_correlation({3.0, 1.0, 4.0, 1.5, 5.0});
-  EXPECT_NEAR(by_hand.rho, -0.6, 1e-12);
-  EXPECT_NEAR(by_hand.p, 0.4, 1e-12);
-  const RankCorrelation rising = successive_rank_correlation({1.0, 2.0, 3.0, 5.0, 8.0, 13.0});
-  EXPECT_NEAR(rising.rho, 1.0, 1e-12);
-  EXPECT_LT(rising.p, 1e-6);
-  EXPECT_TRUE(std::isnan(successive_rank_correlation({1.0, 2.0, 3.0, 4.0}).rho));
-  EXPECT_TRUE(std::isnan(successive_rank_correlation(std::vector<double>(9, 1.0)).rho));
-}
-
 // Values that are printed side by side must be based on the same standard deviation.
 TEST(Intervals, BurstinessOfCurveAndOfClusteringAreOne) {
   IntervalSettings settings;

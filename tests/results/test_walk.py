@@ -5,19 +5,18 @@ import random
 import sys
 
 import pytest
-from programs import INPUTS, run
+from programs import INPUTS
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import walk  # noqa: E402
-from text_tables import rows_of  # noqa: E402
+import summary  # noqa: E402
 
 CATALOGUES = sorted((walk.RESULTS / "walk").glob("chain-512_?.catalogue.csv.xz"))
 
 
 def test_exponents_are_those_of_postproc(postproc):
     assert CATALOGUES
-    said = run(postproc, ["summary", CATALOGUES[0], "--range", "1:10", "--range", "10:100"]).out
-    row = next(rows_of(said.splitlines()))
+    row, = summary.rows_of(postproc.path, CATALOGUES[:1], ranges=("1:10", "10:100"))
     found = walk.exponents(CATALOGUES[:1], 1.0, 0.0)
     assert found["exponent_0"][0] == pytest.approx(float(row["exponent_1:10"]), abs=1e-4)
     assert found["exponent_1"][0] == pytest.approx(float(row["exponent_10:100"]), abs=1e-4)

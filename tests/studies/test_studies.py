@@ -347,8 +347,8 @@ def test_plans(studies):
 def test_recipes(studies, gnuplot, work):
     """Recipes use only commands and numbers that postproc has."""
     studies("quick", ["shorten=2", "only=fault_120|_256"], table="quick")
-    for file in ("figures/fig12_fault_sizes.png", "figures/fig13_slider_sizes.svg", "figures/fault_fit.json", "report.html", "table.csv",
-                 "costs.csv"):
+    for file in ("figures/fig12_fault_sizes.png", "figures/fig13_slider_sizes.svg", "figures/fault_fit.json", "figures/fault_scaling.png",
+                 "report.html", "table.csv", "costs.csv"):
         assert os.path.getsize(f"quick/{file}") > 0, file
     assert not Path("quick/figures/fig7_leaf_springs.png").exists(), "a figure of nothing"
     # If ESyS-Particle is missing, it is named before anything is started.

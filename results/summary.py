@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One row of numbers for each catalogue of a model †, as CSV on standard output. Exponents and densities of times are those of postproc.
+
+summary.py POSTPROC CATALOGUE... [--from TIME] [--to TIME] [--range LO:HI]... [--threshold SIZE]... [--window LO:HI]... [--parameter NAME]...
+
+  events, time, largest, released   number, from the first start to the last end, largest size and sum of the sizes
+  in_events, brief         share of the time within events; share of them that last 3 steps or less
+  exponent_LO:HI, error, ks   power law between these sizes by maximum likelihood
+  events_S, mean_time_S    of the events of at least the size S: number, mean inter-event time
+  share_LO:HI_S            of their inter-event times, the share in a window
+  gamma_S, B_S, C_S, ...   generalised gamma density with delta = 1 of the times of at least `shortest`
+"""
+import argparse
+import csv
+import math
+import sys
+
+import numpy as np
+from catalogues import events_of, lsm, numbers_of, run
+
+BRIEF = 3  # steps
+THRESHOLDS = ("1e-4", "1e-3", "1e-2", "1e-1")
+NOTHING = "nothing to draw", "no bin of sizes"  # of postproc, if no catalogue has enough events
+
+
+def told(value):
+    return "" if value is None or math.isnan(value) else f"{value:.6g}"
+
+
+def asked(postproc, command, paths, *words):
+    """The fits of a command of postproc to these catalogues; none if they have too few events. \\raises ValueError"""
+    try:
+        fits = numbers_of(postproc, command, *paths, *words, "--replicas", 0, "--no-picture")["fits"]
+    except ValueError as error:
+        if not any(text in str(error) for text in NOTHING):
+            raise
+        fits = []
+    return (fit for fit in fits if fit.get("origin", "ours") == "ours")
+
+
+def share_within(times, window):
+    """They are differences of times of steps, whose rounding is far below a millionth of an end."""
+    low, high = (float(text) * (1 - 1e-6) for text in window.split(":"))
+    return np.mean((times >= low) & (times < high)) if len(times) else math.nan
+
+
+def simple_numbers(path, begin, end, thresholds, windows, parameters):
+    """Those that rest on no fit."""
+    header, events = lsm.read_catalogue(path).header, events_of(path, begin, end)
+    sizes = events["size"]
+    row = {name: header.get(name, "") for name in parameters}
+    time = events["t_end"].max() - events["t_start"][0] if len(events) else 0.0
+    row |= {"events": str(len(events)), "time": told(time), "largest": told(sizes.max(initial=-math.inf)) if len(events) else ""}
+    durations, least = events["t_end"] - events["t_start"], min(map(float, thresholds))
+    row |= {"released": told(sizes.sum()), "in_events": told(durations.sum() / time) if time and header.get("events", "pe") == "pe" else ""}
+    brief = durations[sizes >= least] <= (BRIEF + 0.5) * float(header.get("dt", math.nan))
+    row |= {"brief": told(np.mean(brief)) if len(brief) and "dt" in header else ""}
+    for text in thresholds:
+        starts = events["t_start"][sizes >= float(text)]
+        times, name = np.diff(starts), f"{float(text):g}"
+        row |= {f"events_{name}": str(len(starts)), f"mean_time_{name}": told(np.mean(times)) if len(times) else ""}
+        row |= {f"share_{window}_{name}": told(share_within(times, window)) for window in windows}
+    return row
+
+
+def rows_of(postproc, paths, thresholds=THRESHOLDS, ranges=(), windows=(), parameters=(), begin=-math.inf, end=math.inf, shortest=None,
+            method="likelihood"):
+    """A row for each catalogue, {name: text}, '' where there is no number. shortest, method: of postproc intervals. \\raises ValueError"""
+
+    def repeated(option, texts):
+        return [word for text in texts for word in (option, text)]
+
+    common = [word for option, time in (("--from", begin), ("--to", end)) if math.isfinite(time) for word in (option, time)]
+    laws = asked(postproc, "fit", paths, *repeated("--range", ranges), *common, "--no-comparison") if ranges else ()
+    densities = asked(postproc, "intervals", paths, *repeated("--threshold", thresholds), *common, "--delta", 1, "--method", method, "--shuffles", 0,
+                      *(["--shortest", shortest] if shortest is not None else []))
+    laws, densities, rows = iter(laws), iter(densities), []
+    for path in paths:
+        row = simple_numbers(path, begin, end, thresholds, windows, parameters)
+        for text in ranges:
+            law = next(laws, {})
+            row |= {f"{name}_{text}": told(law.get(key)) for name, key in (("exponent", "exponent"), ("error", "standard_error"), ("ks", "ks"))}
+        for text in thresholds:
+            density = next(densities, {})
+            row |= {f"{key}_{float(text):g}": told(density.get(key)) for key in ("shortest", "gamma", "gamma_error", "B", "C")}
+        rows.append(row)
+    return rows
+
+
+def main(postproc, catalogues, **options):
+    rows = rows_of(postproc, catalogues, **options)
+    table = csv.DictWriter(sys.stdout, ["catalogue", *rows[0]], lineterminator="\n")
+    table.writeheader()
+    table.writerows({"catalogue": path, **row} for path, row in zip(catalogues, rows))
+
+
+def parser():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("postproc", metavar="POSTPROC")
+    options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
+    options.add_argument("--from", dest="begin", type=float, default=-math.inf, metavar="TIME")
+    options.add_argument("--to", dest="end", type=float, default=math.inf, metavar="TIME")
+    options.add_argument("--range", dest="ranges", action="append", default=[], metavar="LO:HI")
+    options.add_argument("--threshold", dest="thresholds", nargs="+", default=THRESHOLDS, metavar="SIZE")
+    options.add_argument("--window", dest="windows", action="append", default=[], metavar="LO:HI")
+    options.add_argument("--parameter", dest="parameters", nargs="+", default=[], metavar="NAME", help="of the header")
+    options.add_argument("--shortest", metavar="FACTOR", help="of the mean: shorter times are left out of the densities")
+    options.add_argument("--method", default="likelihood", choices=("likelihood", "least-squares"))
+    return options
+
+
+if __name__ == "__main__":
+    run(main, parser())
