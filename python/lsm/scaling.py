@@ -154,41 +154,45 @@ def line(x, y, weight):
     return ordinate, slope, math.sqrt(1 / total + mean**2 / spread), math.sqrt(1 / spread), chi2
 
 
-def least_squares(model, y, weight, start):
-    """The weighted least squares of a model by the Levenberg-Marquardt method: parameters, their covariance (None: not determined), chi2.
+def least_squares(model, y, weight, starts):
+    """The weighted least squares of a model by the Levenberg-Marquardt method from several starts at once. Of the best minimum: parameters,
+    their covariance (None: not determined), and chi2.
 
-    model(p): its values, and their derivatives with respect to the parameters
+    model(p): of each of the sets p of parameters the values [set, datum], and their derivatives [set, datum, parameter]
     """
 
     def at(p):
         value, slope = model(p)
         residual, slope = np.sqrt(weight) * (value - y), np.sqrt(weight)[:, None] * slope
-        return residual @ residual, slope.T @ residual, slope.T @ slope
+        return np.sum(residual**2, axis=1), np.einsum("kn,kni->ki", residual, slope), np.einsum("kni,knj->kij", slope, slope)
 
-    p, damping = np.array(start, float), 1e-3
+    p, damping = np.array(starts, float), np.full(len(starts), 1e-3)
     chi2, gradient, curvature = at(p)
     for _ in range(100):
-        step = -np.linalg.lstsq(curvature + damping * np.diag(np.diag(curvature)), gradient, rcond=None)[0]
+        damped = curvature * (1 + damping[:, None, None] * np.eye(p.shape[1]))
+        step = -np.einsum("kij,kj->ki", np.linalg.pinv(damped, hermitian=True), gradient)
         if not (np.abs(step) > 1e-12 * np.abs(p)).any():
             break
         there = at(p + step)
-        if not there[0] < chi2:
-            damping *= 10
-            continue
-        p, damping = p + step, damping / 10
-        chi2, gradient, curvature = there
-    scale = np.sqrt(np.diag(curvature))
-    correlation = curvature / np.outer(scale, scale) if scale.all() else np.zeros_like(curvature)
-    determined = np.isfinite(chi2) and np.linalg.cond(correlation) < 1e10
-    return p, np.linalg.inv(correlation) / np.outer(scale, scale) if determined else None, chi2
+        better = there[0] < chi2
+        p[better] += step[better]
+        for old, new in zip((chi2, gradient, curvature), there):
+            old[better] = new[better]
+        damping = np.where(better, damping / 10, np.minimum(10 * damping, 1e30))
+    best = np.argmin(chi2)
+    scale = np.sqrt(np.diag(curvature[best]))
+    correlation = curvature[best] / np.outer(scale, scale) if scale.all() else np.zeros_like(curvature[best])
+    determined = np.linalg.cond(correlation) < 1e10
+    return p[best], np.linalg.inv(correlation) / np.outer(scale, scale) if determined else None, chi2[best]
 
 
 def saturating(p, x, m):
-    """ln s* of growth that ends, p = (ln s_inf, ln L_c, D), and its derivatives."""
-    z = m * p[2] * (p[1] - x)
+    """ln s* of growth that ends, and its derivatives, for each set of p = (ln s_inf, ln L_c, D)."""
+    ln_s, ln_L, D = p.T[:, :, None]
+    z = m * D * (ln_L - x)
     rise = np.logaddexp(0, z)
     share = np.exp(z - rise)
-    return p[0] - rise / m, np.column_stack([np.ones_like(x), -share * p[2], -share * (p[1] - x)])
+    return ln_s - rise / m, np.stack([np.ones_like(z), -share * D, -share * (ln_L - x)], axis=2)
 
 
 def fit_saturation(x, y, weight, m):
@@ -200,9 +204,9 @@ def fit_saturation(x, y, weight, m):
     if len(steps) < 4:
         return dict(m=m, why=f"{len(steps)} different lengths, at least 4 needed")
     # From a sharp bend at each length within, as chi2 may have several minima.
-    starts = ((ordinate, at, slope) for at in steps[1:-1] for ordinate, slope, *_ in [line(np.minimum(x - at, 0), y, weight)])
+    starts = [(ordinate, at, slope) for at in steps[1:-1] for ordinate, slope, *_ in [line(np.minimum(x - at, 0), y, weight)]]
     with np.errstate(all="ignore"):
-        p, covariance, chi2 = min((least_squares(lambda p: saturating(p, x, m), y, weight, start) for start in starts), key=lambda one: one[2])
+        p, covariance, chi2 = least_squares(lambda p: saturating(p, x, m), y, weight, starts)
     if not steps[1] < p[1] < steps[-2]:
         return dict(m=m, why="no end of growth with two lengths on either side of it")
     if covariance is None:

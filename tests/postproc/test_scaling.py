@@ -14,6 +14,7 @@ from programs import SOURCE, Program, refused, run
 
 sys.path.insert(0, str(SOURCE / "python"))
 import lsm.scaling as scaling  # noqa: E402
+from lsm.drawing import axis  # noqa: E402
 from lsm.scaling import ENDS, NONE, POWER_LAW, SHARPNESS, UNDECIDED, Point, block_length, characteristic_size, error_scale, fit_scaling  # noqa: E402
 
 SCRIPT = Program("lsm.scaling", sys.executable, "-m", "lsm.scaling", env={"PYTHONPATH": str(SOURCE / "python"), "LC_ALL": "C.UTF-8"})
@@ -319,6 +320,13 @@ def test_texts():
     falling = scaling.verdict(fit_scaling(points_of(lambda length: 1 / length, LENGTHS)))
     assert "shrinks with the length, which no finite-size effect explains (" in falling and "degenerate: no end of growth" in falling
     assert scaling.verdict({"why": "x"}) == "degenerate: x" and "may or may not" in scaling.verdict({**flat, "preferred": UNDECIDED})
+
+
+def test_ticks_of_near_ends():
+    """Powers of ten alone would be too few."""
+    assert "set ytics (0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 1.8, 2)\nset yrange [0.7:2]\n" in axis("y", "s", 0.72, 1.9, True)
+    assert "set xtics (100, 200, 500, 1000, 2000, 5000)\nset xrange [100:5000]\n" in axis("x", "L", 108, 2079, True)
+    assert "set xtics 10\nset xrange [100:10000]\n" in axis("x", "L", 108, 7000, True)
 
 
 # ---- the program
