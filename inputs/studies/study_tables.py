@@ -401,7 +401,7 @@ class Study:
         if command.split()[0].endswith(".py"):
             return f"{python} {shlex.quote(str(INPUTS.parent / 'results'))}/{command}"
         if command.startswith("lsm."):
-            return f"PYTHONPATH={shlex.quote(str(INPUTS.parent / 'python'))}:$PYTHONPATH {python} -m {command}"
+            return f"PYTHONPATH={shlex.quote(str(INPUTS.parent / 'python'))}:${{PYTHONPATH:-}} {python} -m {command}"
         return f"{self.common['postproc']} {command} --overwrite"
 
     def found(self, run):

@@ -149,10 +149,15 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
 
 
 def test_scripts_of_results_give_numbers(study):
-    """A recipe may use them beside commands of postproc."""
+    """A recipe may use them, and programs of the module lsm, beside commands of postproc."""
     own = "  own: match.py {catalogue} {catalogue} --threshold 1e-3 --within 1\n"
-    write(CHAIN, RECIPE.replace("table:\n", own + "table:\n  of: own.matches[0].n_first\n  same: own.matches[0].same\n"))
+    write(
+        CHAIN,
+        RECIPE.replace("table:\n", own + "table:\n  of: own.matches[0].n_first\n  same: own.matches[0].same\n") +
+        "figures:\n  scaled: {command: lsm.scaling --threshold 0}\n")
     run(study, "my.csv")
+    assert json.loads(Path("out/figures/scaled.json").read_text())["scaling"][0]["points"][0]["n"] == int(counted("c_1/catalogue.csv"))
+    assert Path("out/figures/scaled.png").stat().st_size
     assert int(table()["c_1"]["same"]) == int(table()["c_1"]["of"]) > 0
 
 
@@ -438,6 +443,8 @@ def test_tables_that_are_right(plan, work):
 def test_settings_are_no_code(plan):
     found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
     assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} count c/catalogue.csv --label 'a; touch b' --overwrite"
+    # Snakemake's shell ends at a variable that is not set.
+    assert subprocess.run(["bash", "-euc", found.program("lsm.regime --help")], env={}, capture_output=True).returncode == 0
 
 
 def test_first_loading_has_a_name(plan):
