@@ -19,6 +19,8 @@ import statistics
 import sys
 from pathlib import Path
 
+import numpy as np
+
 FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / "inputs/studies"), str(FOLDER / "speed")]
 import calibrate  # noqa: E402
@@ -348,6 +350,29 @@ def preset_paper_table():
 
 def preset_slip_table():
     return of_preset(SLIP)
+
+
+def wandering_table():
+    """Numbers of consecutive stretches, each as long as a run of the calibration."""
+    out, long = [], calibrate.STEPS * 0.12 - calibrate.LOADING
+    for name, folder in (("hardly damped", DAMPING), ("`preset slip`", SLIP)):
+        for length, path in ((length, path) for length, paths in faults(folder=folder).items() for path in paths):
+            ends = np.arange(calibrate.LOADING + long, max(number(row, "t_end") for row in read(path)), long)
+            rows = [summary.rows_of(POSTPROC, [path], ["1e-4"], ["1e-4:1e-1"], begin=end - long, end=end, shortest=0)[0] for end in ends]
+            gammas = [number(row, "gamma_0.0001") for row in rows]
+            cells = [
+                f"{shown(statistics.stdev(value(row) for row in rows))}, {shown(statistics.mean(error(row) for row in rows))}"
+                for value, error in ((lambda row: number(row, "gamma_0.0001"), lambda row: number(row, "gamma_error_0.0001")),
+                                     (lambda row: number(row, EXPONENTS["1e-4 to 1e-1"]), lambda row: number(row, "error_1e-4:1e-1")),
+                                     (lambda row: math.log(number(row, "mean_time_0.0001")), lambda row: number(row, "events_0.0001")**-0.5))
+            ]
+            out.append(
+                [f"{name}, {length}, {path.name.split('_')[2].split('.')[0]}",
+                 str(len(rows)), f"{shown(min(gammas))}, {shown(max(gammas))}", *cells])
+    return table([
+        "fault, length, packing", "stretches", "gamma: least, largest", "gamma: deviation, error of a fit", "exponent: the same",
+        "ln of the mean time: deviation, if by chance"
+    ], out)
 
 
 def short_waves_table():
