@@ -51,8 +51,9 @@ if(ARCHIVE)
   foreach(object IN LISTS all)
     get_filename_component(name ${object} NAME_WE)
     lsm_is_left_out(${name} left_out)
-    # The last four are compiled with the package's lists of styles.
-    if(NOT left_out AND NOT name MATCHES "^(force|modify|input|lammps)$")
+    # Those are compiled with lmp_fault's own lists of styles.
+    string(REPLACE ";" "|" own_lists "${lsm_shorter_sources};force;modify;input;lammps")
+    if(NOT left_out AND NOT name MATCHES "^(${own_lists})$")
       list(APPEND objects ${object})
     endif()
   endforeach()

@@ -6,7 +6,11 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/FaultStyles.cmake)
 file(MAKE_DIRECTORY ${TO})
-foreach(category IN ITEMS pair bond angle dihedral improper fix compute command)
+set(categories pair bond angle dihedral improper fix compute command)
+if(FAULT)
+  list(APPEND categories ${lsm_shorter_categories})
+endif()
+foreach(category IN LISTS categories)
   file(READ ${FROM}/style_${category}.h list)
   string(REGEX MATCHALL "#include \"[^\n]*\n" lines "${list}")
   foreach(line IN LISTS lines)
