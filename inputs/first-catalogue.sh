@@ -23,7 +23,7 @@ build=${LSM_BUILD_DIR:-$root/build}
 bin=${LSM_BIN:-$build/bin} lmp=lmp
 if [ -z "${LSM_BIN:-}" ]; then
   . "$root/lammps-pkg/cmake/debian-packages.sh"
-  lmp=lmp_fault # two fifths of LAMMPS' objects
+  lmp=lmp_fault # a third of LAMMPS' objects
   build_programs "$root" "$build" $lmp postproc
 fi
 packages_took=${packages_took:-$SECONDS}

@@ -35,15 +35,23 @@ def ratio_of(rounds, base):
 
 
 def speed_peers_table():
-    found, out = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}, []
-    for label in dict.fromkeys(label for label, _ in found):
+    """ESyS-Particle of a later sitting, in which it was also compiled for the machine, beside ours of that sitting."""
+    sittings = {
+        table: {(label, ranks): rounds
+                for (label, _, ranks), rounds in timings(table).items() if label.startswith("ESyS") == (table == "esys") or label == "ours"}
+        for table in ("peers", "esys")
+    }
+    out = []
+    for label, found in ((label, found) for found in sittings.values() for label in dict.fromkeys(label for label, _ in found)):
+        if label == "ours" and found is sittings["esys"]:
+            continue
         name, _, native = label.partition(", ")
-        row = [name, "-O2, of Debian" if name == "ESyS-Particle" else "-O3 " + native if native else "-O3"]
+        row = [name, "-O2, of Debian" if label == "ESyS-Particle" else "-O3 " + native if native else "-O3"]
         for ranks in (1, 2):
-            at, ours = found.get((label, ranks)), found["ours", ranks]
+            at, ours = found.get((label, ranks)), found.get(("ours", ranks))
             row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
             last = at or last
-        out.append(row + [f"{middle(last, 'bytes'):.0f}"])
+        out.append(row + [f"{middle(last, 'bytes'):.0f}" if middle(last, "bytes") else ""])
     return ([
         "PE at every step, length 1890", "flags", "million particle-steps/s, 1 rank", "ours (-O3) is faster", "2 ranks", "ours is faster",
         "bytes for a particle, most ranks"
