@@ -86,6 +86,10 @@ mkdir -p "$tree" "$build"
     [ -e "$root/$file" ] || continue
     cmp -s "$root/$file" "$tree/$file" || { mkdir -p "$tree/$(dirname "$file")" && cp -p "$root/$file" "$tree/$file" && touch "$tree/$file"; }
   done
+(cd "$tree" && find . -type f -printf '%P\0') |
+  while IFS= read -r -d '' file; do
+    [ -e "$root/$file" ] || rm "$tree/$file" # it has left the sources
+  done
 lammps=OFF
 for i in "${chosen[@]}"; do
   [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* ]] && lammps=ON
