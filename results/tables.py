@@ -378,7 +378,8 @@ def wandering_table():
 def short_waves_table():
     """The hardly damped fault, packing 4, with retardation of links."""
     rows = [row for row in read(DAMPING / "points.csv") if row["point"].startswith("t_") and row["memory"] == "1" and row["retardation"] != "0"]
-    without = [{**row, "retardation": "0"} for row in of_all_times(DAMPING) if row["seed"] == "4" and row["length"] in {one["length"] for one in rows}]
+    lengths = {row["length"] for row in rows}
+    without = [{**row, "retardation": "0"} for row in of_all_times(DAMPING) if row["seed"] == "4" and row["length"] in lengths]
     columns = {"length, retardation": lambda row: f"{row['length']}, {float(row['retardation']):g}", "one event in": "mean_time_0.0001"}
     columns |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "gamma of all times": "gamma_0.0001", "B": "B_0.0001"}
     return study_table("", columns, sorted(without + rows, key=lambda row: (int(row["length"]), float(row["retardation"]))))
@@ -386,13 +387,15 @@ def short_waves_table():
 
 def recipes_table():
     """Preset paper in packings of two recipes."""
-    out = []
-    for recipe, folder in (("random places", DAMPING), ("grid, loose discs removed", RECIPES / "removed"), ("grid, loose discs kept", RECIPES / "kept")):
+    out, folders = [], {"random places": DAMPING, "grid, loose discs removed": RECIPES / "removed", "grid, loose discs kept": RECIPES / "kept"}
+    for recipe, folder in folders.items():
         rows = with_sizes(of_all_times(folder), "catalogue", "1e-3", "s*", folder)
         for row in (row for row in rows if row["seed"] == "4"):
             decades = ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
             out.append([
-                f"{recipe}, {row['length']}", f"{of(row, EXPONENTS['1e-4 to 1e-1'])} ({decades})", of(row, "gamma_0.0001"), of(row, "B_0.0001"),
+                f"{recipe}, {row['length']}", f"{of(row, EXPONENTS['1e-4 to 1e-1'])} ({decades})",
+                of(row, "gamma_0.0001"),
+                of(row, "B_0.0001"),
                 of(row, "mean_time_0.0001"), f"{of(row, 's*')}, {shown(number(row, 'largest'))}"
             ])
     return table(["recipe, length", "exponent (in each decade)", "gamma of all times", "B", "one event in", "s*, largest event"], out)
