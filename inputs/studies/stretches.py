@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from calibrate import LOADING
-import summary
+from summary import rows_of  # of the folder results, which calibrate adds to the path
 from superpose import write
 from text_tables import header_of
 
@@ -126,7 +126,7 @@ def events(postproc, info, every, pe, memory):
         series, picked = Path(work) / "sum.pe.bin", Path(work) / "picked.csv"
         write_series(series, info, every, pe)
         asked(postproc, "pick", series, "-o", picked, "--memory-time", memory)
-        row, = summary.rows_of(postproc, [picked], ranges=["1e-4:1e-1"])
+        row, = rows_of(postproc, [picked], ranges=["1e-4:1e-1"])
     return {name: row.get(key) for name, key in NUMBERS.items()}
 
 

@@ -24,9 +24,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import summary
 from calibrate import LOADING, number, read
 from catalogues import distance, earthquakes, mean_and_error, over_mean
+from summary import rows_of  # of the folder results, which calibrate adds to the path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
@@ -101,7 +101,7 @@ def gammas(postproc, paths, unit, begin):
     """The values gamma_N of each catalogue."""
     if not paths:
         return []
-    rows = summary.rows_of(postproc, paths, [f"{unit * 10.0**n:g}" for n in SIZES], begin=begin)
+    rows = rows_of(postproc, paths, [f"{unit * 10.0**n:g}" for n in SIZES], begin=begin)
     return [{f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES} for row in rows]
 
 
