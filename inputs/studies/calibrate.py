@@ -265,10 +265,11 @@ def numbers_of_point(postproc, folder, memory, work):
     series = next(folder.glob("*.pe.bin"))
     subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
 
-    def fitted(**more):
-        return summary.rows_of(postproc, [picked], ["1e-4"], RANGES, WINDOWS, begin=LOADING, **more)[0]
+    def fitted(*more, **options):
+        return summary.rows_of(postproc, [picked], ["1e-4"], *more, begin=LOADING, **options)[0]
 
-    numbers, squares, longer = fitted(shortest=0), fitted(shortest=0, method="least-squares"), fitted()
+    numbers = fitted(RANGES, WINDOWS, shortest=0)
+    squares, longer = fitted(shortest=0, method="least-squares"), fitted()
     try:
         values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
     except ValueError:  # too few events or velocities: these statements have no number

@@ -9,12 +9,12 @@ series that falls as it rises, large for a saw-tooth. With the catalogue also th
 import argparse
 import json
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
 
 import lsm
+from lsm.program import run
 
 WINDOW = 3.0  # time units: long against the periods of single discs (about 1), short against large events (10 and more)
 
@@ -78,9 +78,4 @@ def parser():
 
 
 if __name__ == "__main__":
-    try:
-        main(**vars(parser().parse_args()))
-    except OSError as error:
-        sys.exit(f"lsm.regime: {error.filename}: {error.strerror}")
-    except ValueError as error:
-        sys.exit(f"lsm.regime: {error}")
+    run(main, parser())

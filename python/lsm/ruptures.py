@@ -12,7 +12,6 @@ its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip
 """
 import argparse
 import math
-import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +19,7 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
+from lsm.program import add_time_window, run
 
 COLUMNS = ["slip_moment", "rupture_length", "x_hypocentre", "x_begin", "stress_drop"]
 MOST, LARGEST = 20000, 1000  # points of a catalogue in scatter plots: beyond, the largest ones and every n-th
@@ -558,8 +558,7 @@ def parser():
     options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
     options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
     options.add_argument("--history", metavar="FILE", help="slip history of the first catalogue's run")
-    options.add_argument("--from", dest="begin", type=float, default=-math.inf, metavar="TIME", help="leave out what starts before (model time)")
-    options.add_argument("--to", dest="end", type=float, default=math.inf, metavar="TIME", help="leave out what starts at this time or later")
+    add_time_window(options)
     options.add_argument("--p-speed", type=float, default=2.12, help="speed of P-waves (paper, Eq. 4: %(default)s, the regular lattice)")
     options.add_argument("--s-speed", type=float, default=1.22, help="speed of S-waves (Eq. 5: %(default)s)")
     options.add_argument(
@@ -571,9 +570,4 @@ def parser():
 
 
 if __name__ == "__main__":
-    try:
-        main(**vars(parser().parse_args()))
-    except OSError as error:
-        sys.exit(f"lsm.ruptures: {error.filename}: {error.strerror}")
-    except ValueError as error:
-        sys.exit(f"lsm.ruptures: {error}")
+    run(main, parser())

@@ -11,7 +11,6 @@ s_inf (L / L_c)^D for L far below L_c and s_inf far above. Results: BASE.csv, it
 import argparse
 import json
 import math
-import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +18,7 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
+from lsm.program import add_time_window, run
 
 PAPER_THRESHOLD = 1e-4  # smallest size in the paper's Figs. 12 and 13
 SHARPNESS = 4.0  # m of the bend: few lengths lie within it; L_c and D depend on it by more than their errors, hence BENDS
@@ -445,8 +445,7 @@ def parser():
     options = argparse.ArgumentParser(prog="python3 -m lsm.scaling", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
     options.add_argument("--label", action="append", help="name of a catalogue, once per catalogue")
-    options.add_argument("--from", dest="begin", type=float, default=-math.inf, metavar="TIME", help="leave out what starts before (model time)")
-    options.add_argument("--to", dest="end", type=float, default=math.inf, metavar="TIME", help="leave out what starts at this time or later")
+    add_time_window(options)
     options.add_argument(
         "--threshold", type=float, metavar="SIZE", help="smallest size, raised to where all catalogues of a model are complete; without it "
         "1e-4, as in the paper, or the largest completeness in their headers")
@@ -463,9 +462,4 @@ def parser():
 
 
 if __name__ == "__main__":
-    try:
-        main(**vars(parser().parse_args()))
-    except OSError as error:
-        sys.exit(f"lsm.scaling: {error.filename}: {error.strerror}")
-    except ValueError as error:
-        sys.exit(f"lsm.scaling: {error}")
+    run(main, parser())
