@@ -94,21 +94,28 @@ def test_lists_that_are_added_to_later_do_not_change_the_motion(lmp, work):
 BANDS = (1.03, 0.09), (0.64, 0.14), (78, 13)
 
 
-def test_statistics_of_a_short_fault(lmp, postproc):
-    """Bands for the mean of two seeds: mean of 10 seeds and four of its standard deviations. So a change
-    of the last digits changes the events, but not this test."""
-    values = []
-    for seed in 1, 2:
-        run(lmp, scene("fault.in", length=60, steps=300000, seed=seed, checkpoint=1000000, series="no", prefix="short", overwrite="yes"))
-        events = read_catalogue("short.catalogue.csv")[1]
-        run(postproc, "fit short.catalogue.csv --replicas 0 --no-comparison --no-picture --overwrite --json fit.json")
-        run(
-            postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
-            "--no-picture --overwrite --json intervals.json")
-        exponent, gamma = (json.loads(Path(name).read_text())["fits"][0] for name in ("fit.json", "intervals.json"))
-        values.append((exponent["exponent"], gamma["gamma"], (events["size"] >= 1e-3).sum()))
-    for name, value, (mean, deviation) in zip(("exponent", "gamma", "events >= 1e-3"), np.mean(values, 0), BANDS):
+def has_usual_statistics(lmp, postproc, seed):
+    """Within 2.8 standard deviations of 10 seeds. A change of the last digits changes the events, but
+    hardly ever this test: by chance once in 30 times."""
+    run(lmp, scene("fault.in", length=60, steps=300000, seed=seed, checkpoint=1000000, series="no", prefix="short"))
+    events = read_catalogue("short.catalogue.csv")[1]
+    run(postproc, "fit short.catalogue.csv --replicas 0 --no-comparison --no-picture --json fit.json")
+    run(
+        postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
+        "--no-picture --json intervals.json")
+    exponent, gamma = (json.loads(Path(name).read_text())["fits"][0] for name in ("fit.json", "intervals.json"))
+    values = exponent["exponent"], gamma["gamma"], (events["size"] >= 1e-3).sum()
+    for name, value, (mean, deviation) in zip(("exponent", "gamma", "events >= 1e-3"), values, BANDS):
         assert abs(value - mean) < 4 * deviation / 2**0.5, f"{name} is {value:.3g}, expected about {mean:.3g}"
+
+
+# Two tests, so that neither takes more than half a minute.
+def test_statistics_of_a_short_fault(lmp, postproc):
+    has_usual_statistics(lmp, postproc, 1)
+
+
+def test_statistics_of_another_short_fault(lmp, postproc):
+    has_usual_statistics(lmp, postproc, 2)
 
 
 @pytest.mark.parametrize("length", [120, 240, 480, 945, 1440, 1890])
