@@ -35,16 +35,9 @@ def ratio_of(rounds, base):
 
 
 def speed_peers_table():
-    """ESyS-Particle of a later sitting, in which it was also compiled for the machine, beside ours of that sitting."""
-    sittings = {
-        table: {(label, ranks): rounds
-                for (label, _, ranks), rounds in timings(table).items() if label.startswith("ESyS") == (table == "esys") or label == "ours"}
-        for table in ("peers", "esys")
-    }
+    found = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}
     out = []
-    for label, found in ((label, found) for found in sittings.values() for label in dict.fromkeys(label for label, _ in found)):
-        if label == "ours" and found is sittings["esys"]:
-            continue
+    for label in dict.fromkeys(label for label, _ in found):
         name, _, native = label.partition(", ")
         row = [name, "-O2, of Debian" if label == "ESyS-Particle" else "-O3 " + native if native else "-O3"]
         for ranks in (1, 2):

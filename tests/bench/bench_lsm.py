@@ -95,9 +95,10 @@ def shares_of_cpu():
 
 class Bench:
 
-    def __init__(self, lmp, stock, folder, quick, rounds, seconds, length, runs, native):
+    def __init__(self, lmp, stock, folder, quick, rounds, seconds, length, runs, native, native_esys):
         self.lmp, self.stock, self.runs, self.quick = lmp.resolve(), stock.resolve(), runs and runs.resolve(), quick
         self.native = [path.resolve() for path in native or ()]
+        self.esys = {"ESyS-Particle": shutil.which("esysparticle"), "ESyS-Particle, -march=native": native_esys and native_esys.resolve()}
         self.rounds, self.seconds = rounds or (2 if quick else 7), seconds or (0.3 if quick else 1)
         self.few = min(self.rounds, max(2, (self.rounds + 1) // 2))
         self.length, self.cause_length = length or 1890, length or 480
@@ -182,8 +183,7 @@ class Bench:
 
     def peers(self):
         self.scene(self.length)
-        esys = shutil.which("esysparticle")
-        if not esys:
+        if not self.esys["ESyS-Particle"]:
             print("ESyS-Particle is not installed and left out (Debian package esys-particle)", file=sys.stderr)
         name = f"fault_{self.length}"
         kinds = [("", self.lmp, self.stock, ("",))]
@@ -198,17 +198,17 @@ class Bench:
                         words = ["-sf", "omp", "-pk", "omp", "1"] if suffix else []
                         text = self.lammps(ranks, stock, HERE / "stock.in", given, "stock.log", *words)
                         self.note("peers", f"bond {label}{suffix}{flags}", self.length, ranks, number, text)
-            for ranks in self.ranks:
+            for (label, esys), ranks in itertools.product(self.esys.items(), self.ranks):
                 # In addition to its workers ESyS-Particle has a process that directs them and never sleeps.
                 if esys and number <= self.few and ranks < self.cores:
                     for path in Path(".").glob(f"{name}.esys.*"):
                         path.unlink()
                     words = (HERE / "esys_particle.py", name, ranks, self.length, self.steps(self.length, 10), 3)
                     try:
-                        self.note("peers", "ESyS-Particle", self.length, ranks, number, self.mpi(ranks + 1, esys, *words))
+                        self.note("peers", label, self.length, ranks, number, self.mpi(ranks + 1, esys, *words))
                     except (AssertionError, ValueError) as error:
-                        esys = None
-                        print(f"ESyS-Particle failed and is left out: {error}", file=sys.stderr)
+                        self.esys[label] = None
+                        print(f"{label} failed and is left out: {error}", file=sys.stderr)
 
     def parts(self):
         """Each run leaves out one more feature; particles do not move, so that the contacts are the same."""
@@ -390,6 +390,7 @@ if __name__ == "__main__":
         "with the newest restart file of each, and are left out without it")
     parser.add_argument("--native", metavar=("LMP", "STOCK"), nargs=2, type=Path,
                         help="the same two programs, compiled with -march=native, the second with package OPENMP: further peers")
+    parser.add_argument("--native-esys", metavar="PATH", type=Path, help="ESyS-Particle compiled with -O3 -march=native, a further peer")
     try:
         main(**vars(parser.parse_args()))
     except (AssertionError, OSError, ValueError) as error:

@@ -83,11 +83,11 @@ def moves_as_with_new_lists(lmp, work, first, last):
 
 # Two halves, so that neither takes more than half a minute.
 def test_lists_that_are_added_to_do_not_change_the_motion(lmp, work):
-    moves_as_with_new_lists(lmp, work, 5000, 50000)
+    moves_as_with_new_lists(lmp, work, 5000, 65000)
 
 
 def test_lists_that_are_added_to_later_do_not_change_the_motion(lmp, work):
-    moves_as_with_new_lists(lmp, work, 50000, 100000)
+    moves_as_with_new_lists(lmp, work, 65000, 100000)
 
 
 # Mean and standard deviation over 10 seeds
