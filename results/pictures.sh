@@ -56,6 +56,7 @@ for part; do
       done
       python3 ../inputs/studies/calibrate.py posterior calibration/points.csv.xz calibration
       python3 slip_or_exchange.py decides damping_decides damping/points.csv
+      python3 slip_or_exchange.py rates slip_rates damping/fault_*.catalogue.csv.xz slip/fault_*.catalogue.csv.xz
       ;;
     run)
       # Runs the first command of the README; the pictures show its largest event.

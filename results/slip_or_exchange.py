@@ -4,6 +4,7 @@
 
 slip_or_exchange.py events RUN OUT.csv.xz           the events >= 1e-4 of a run, with the two numbers below
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
+slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
 slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
@@ -100,6 +101,36 @@ def kinds(output, *paths):
                          rank=np.mean(of["rank"]), slip=np.mean((of["excess"] > 0.5) & (of["rank"] > 0.8))))
     write_table(output, ["Events by size; excess: of their sum; slip: share with excess above 0.5 and rank above 0.8 (slip_or_exchange.py kinds)"],
                 rows)
+
+
+FAULTS = {"damping": "hardly damped", "slip": "preset slip"}
+RATES = """set logscale xy
+set xrange [100:2300]
+set yrange [3:300]
+set xtics (120, 240, 480, 945, 1890)
+set xlabel 'length of the fault'
+set ylabel 'mean time between events'
+set key outside right
+set datafile separator comma
+plot """ + ", ".join(f"table u (strcol(1) eq '{name}' ? $2 : NaN):{column} w p lc {colour} pt {point} t '{name}, {what}'"
+                     for name, colour in (("hardly damped", 6), ("preset slip", 2))
+                     for what, column, point in (("all", 4, 6), ("those that are slip", 5, 7))) + ", 6970/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
+
+
+def rates(base, *paths):
+    """Mean times between events of at least a size, and between those in which friction takes up more than half of the energy."""
+    rows = []
+    for path in map(Path, paths):
+        found = lsm.read_catalogue(path)
+        of, slip = found[found["t_start"] >= LOADING], found["excess"][found["t_start"] >= LOADING] > 0.5
+        row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
+        for least in (1e-4, 1e-3, 1e-2):
+            for kind, some in (("all", of["size"] >= least), ("slip", (of["size"] >= least) & slip)):
+                row[f"{kind}_{least:g}"] = (of["t_end"].max() - LOADING) / np.sum(some) if np.any(some) else np.nan
+        rows.append(row)
+    rows.sort(key=lambda row: (row["fault"], float(row["length"])))
+    write_table(f"{base}.csv", ["Mean time between events of at least a size; slip: friction takes up more than half (slip_or_exchange.py rates)"], rows)
+    draw(base, RATES, 800, 400)
 
 
 # ---- events of other series
@@ -306,8 +337,8 @@ def quality(output, *runs):
 
 
 if __name__ == "__main__":
-    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, surrogates=surrogates,
-                    energies=energies, switched=switched, figure=figure)
+    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates,
+                    surrogates=surrogates, energies=energies, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

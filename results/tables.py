@@ -152,7 +152,7 @@ def judged(rows, statement):
 def paper_table():
     """Each statement for the three faults."""
     groups, slip = {}, {}
-    for name, folder, lengths in (("default", CAMPAIGN, ("120", "480")), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120",))):
+    for name, folder, lengths in (("default", CAMPAIGN, ("120",)), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", "480"))):
         rows = grouped(of_all_times(folder), lambda row: row["length"])
         groups |= {f"{name}, {length}": rows[length] for length in lengths}
     for folder, preset in ((DAMPING, "preset paper"), (SLIP, "preset slip")):
@@ -352,12 +352,22 @@ def preset_slip_table():
     return of_preset(SLIP)
 
 
+def slip_rates_table():
+    columns = {"fault, length, packing": lambda row: f"{row['fault']}, {row['length']}, {row['seed']}"}
+    for least in ("0.0001", "0.001", "0.01"):
+        columns[f"one event >= {least} in, one that is slip"] = (
+            lambda row, least=least: f"{shown(number(row, f'all_{least}'))}, {shown(number(row, f'slip_{least}'))}")
+    return study_table("slip_rates.csv", columns)
+
+
 def wandering_table():
     """Numbers of consecutive stretches, each as long as a run of the calibration."""
     out, long = [], calibrate.STEPS * 0.12 - calibrate.LOADING
     for name, folder in (("hardly damped", DAMPING), ("`preset slip`", SLIP)):
         for length, path in ((length, path) for length, paths in faults(folder=folder).items() for path in paths):
             ends = np.arange(calibrate.LOADING + long, max(number(row, "t_end") for row in read(path)), long)
+            if len(ends) < 2:
+                continue
             rows = [summary.rows_of(POSTPROC, [path], ["1e-4"], ["1e-4:1e-1"], begin=end - long, end=end, shortest=0)[0] for end in ends]
             gammas = [number(row, "gamma_0.0001") for row in rows]
             cells = [
@@ -494,9 +504,11 @@ def energies_table():
 
 def surrogates_table():
     columns = {
-        "fault": lambda row: row["run"].replace("_", " "), "series": lambda row: row["series"], "one in": "one_in", "by its spectrum": "by_spectrum"
+        "fault": lambda row: row["run"].replace("fault", "hardly damped").replace("_", " "), "series": lambda row: row["series"], "one in": "one_in",
+        "by its spectrum": "by_spectrum"
     }
-    return study_table("damping/surrogates.csv", columns | {"exponent": "exponent", "gamma": "gamma"})
+    rows = [row for folder in (DAMPING, SLIP) for row in read(folder / "surrogates.csv")]
+    return study_table("", columns | {"exponent": "exponent", "gamma": "gamma"}, rows)
 
 
 def switched_table():
@@ -561,7 +573,7 @@ def nearest_table():
 
 def slip_lengths_table():
     """Two faults whose events are slip, at all lengths and packings that were run, memory 1."""
-    names, out = {"s004": "impedance 0.1", "s006": "in place"}, []
+    names, out = {"s006": "viscosity 0.023", "s083": "retardation 0.005"}, []
     rows = [row for row in calibrate.completed(POINTS) if row["point"][:4] in names and row["memory"] == "1"]
     for row in sorted(rows, key=lambda row: (row["point"][:4], float(row["length"]), row["seed"], -float(row["dt"]))):
         step = "" if row["dt"] == "0.12" else ", half the step"
@@ -571,7 +583,23 @@ def slip_lengths_table():
             shown(number(row, "gamma_0.0001")), f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}",
             f"{shown(number(row, 'excess'))}, {shown(number(row, 'rank'))}"
         ])
-    return table(["plates: length, packing", "exponent (in each decade)", "gamma of all times", "B, one event in", "excess, rank †"], out)
+    return table(["damping: length, packing", "exponent (in each decade)", "gamma of all times", "B, one event in", "excess, rank †"], out)
+
+
+def around_table():
+    """One value of s013 changed at a time, packing 1, memory 1: which of them ties the rate to the length?"""
+    keys, rows = ("stress", "viscosity", "kt", "mus", "retardation"), {}
+    for row in calibrate.completed(POINTS):
+        if row["memory"] == "1" and row["seed"] == "1" and row["dt"] == "0.12" and row["length"] in ("120", "480"):
+            rows.setdefault(row["point"][:4], {})[row["length"]] = row
+    base, out = rows["s013"]["120"], []
+    for name, found in rows.items():
+        changed = [key for key in keys if name[0] == "s" and "120" in found and found["120"][key] != base[key]]
+        if name == "s013" or len(changed) == 1 and len(found) == 2 and found["120"]["hold"] == "position":
+            both = [[shown(number(found[length], key)) for length in ("120", "480")]
+                    for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "mean_time_0.0001", "B_0.0001", "excess")]
+            out.append([", ".join(f"{key} {found['120'][key]}" for key in changed) or "none (s013)", *(", ".join(cells) for cells in both)])
+    return table(["changed", *(f"{what} at 120, 480" for what in ("exponent", "gamma", "one event in", "B", "excess †"))], sorted(out))
 
 
 def slider_table():

@@ -100,8 +100,7 @@ def has_usual_statistics(lmp, postproc, seed):
     run(lmp, scene("fault.in", length=60, steps=300000, seed=seed, checkpoint=1000000, series="no", prefix="short"))
     events = read_catalogue("short.catalogue.csv")[1]
     run(postproc, "fit short.catalogue.csv --replicas 0 --no-comparison --no-picture --json fit.json")
-    run(
-        postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
+    run(postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
         "--no-picture --json intervals.json")
     exponent, gamma = (json.loads(Path(name).read_text())["fits"][0] for name in ("fit.json", "intervals.json"))
     values = exponent["exponent"], gamma["gamma"], (events["size"] >= 1e-3).sum()

@@ -47,6 +47,15 @@ def test_excess_and_rank(script, work):
     run(script, "kinds", "kinds.csv", "run.events.csv.xz", "quiet.events.csv.xz")
     rows = table("kinds.csv")
     assert [(row["run"], row["events"], float(row["slip"])) for row in rows] == [("run", "400", 1.0), ("quiet", "400", 0.0)]
+    for folder, name in ("slip", "run"), ("damping", "quiet"):
+        Path(folder).mkdir()
+        Path(f"{name}.events.csv.xz").rename(f"{folder}/fault.csv.xz")
+    run(script, "rates", "rates", "slip/fault.csv.xz", "damping/fault.csv.xz")
+    ringing, slipping = table("rates.csv")
+    assert (ringing["fault"], slipping["fault"]) == ("hardly damped", "preset slip")
+    whole = (steps[-1] - 8000) / cycles
+    assert [float(row["all_0.01"]) for row in (ringing, slipping)] == pytest.approx([whole, whole], rel=0.01)
+    assert float(slipping["slip_0.0001"]) == pytest.approx(whole, rel=0.01) and ringing["slip_0.0001"] == ""
 
 
 def test_random_phases_keep_the_spectrum():
