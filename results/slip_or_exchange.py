@@ -129,7 +129,8 @@ def rates(base, *paths):
                 row[f"{kind}_{least:g}"] = (of["t_end"].max() - LOADING) / np.sum(some) if np.any(some) else np.nan
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
-    write_table(f"{base}.csv", ["Mean time between events of at least a size; slip: friction takes up more than half (slip_or_exchange.py rates)"], rows)
+    write_table(f"{base}.csv", ["Mean time between events of at least a size; slip: friction takes up more than half (slip_or_exchange.py rates)"],
+                rows)
     draw(base, RATES, 800, 400)
 
 
@@ -337,8 +338,8 @@ def quality(output, *runs):
 
 
 if __name__ == "__main__":
-    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates,
-                    surrogates=surrogates, energies=energies, switched=switched, figure=figure)
+    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates, surrogates=surrogates,
+                    energies=energies, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:
