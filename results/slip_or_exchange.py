@@ -122,11 +122,11 @@ def rates(base, *paths):
     rows = []
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
-        of, slip = found[found["t_start"] >= LOADING], found["excess"][found["t_start"] >= LOADING] > 0.5
+        slip = found["excess"] > 0.5
         row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-4, 1e-3, 1e-2):
-            for kind, some in (("all", of["size"] >= least), ("slip", (of["size"] >= least) & slip)):
-                row[f"{kind}_{least:g}"] = (of["t_end"].max() - LOADING) / np.sum(some) if np.any(some) else np.nan
+            for kind, some in (("all", found["size"] >= least), ("slip", (found["size"] >= least) & slip)):
+                row[f"{kind}_{least:g}"] = (found["t_end"].max() - LOADING) / np.sum(some) if np.any(some) else np.nan
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
     write_table(f"{base}.csv", ["Mean time between events of at least a size; slip: friction takes up more than half (slip_or_exchange.py rates)"],

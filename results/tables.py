@@ -334,10 +334,15 @@ def of_all_times(folder):
     return rows
 
 
+def decades_of(row):
+    """The exponents of the single decades."""
+    return ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
+
+
 def of_preset(folder):
     """Catalogues of a preset, none of whose packings was used to choose its values."""
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
-    columns |= {"in each decade": lambda row: ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])}
+    columns |= {"in each decade": decades_of}
     columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_0.0001'))}, {shown(number(row, 'gamma_longer'))}"}
     columns |= {"B of all times": "B_0.0001"}
     columns |= {"one event in, without those within 0.6": lambda row: f"{shown(number(row, 'mean_time_0.0001'))}, {shown(number(row, 'apart'))}"}
@@ -401,9 +406,8 @@ def recipes_table():
     for recipe, folder in folders.items():
         rows = with_sizes(of_all_times(folder), "catalogue", "1e-3", "s*", folder)
         for row in (row for row in rows if row["seed"] == "4"):
-            decades = ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
             out.append([
-                f"{recipe}, {row['length']}", f"{of(row, EXPONENTS['1e-4 to 1e-1'])} ({decades})",
+                f"{recipe}, {row['length']}", f"{of(row, EXPONENTS['1e-4 to 1e-1'])} ({decades_of(row)})",
                 of(row, "gamma_0.0001"),
                 of(row, "B_0.0001"),
                 of(row, "mean_time_0.0001"), f"{of(row, 's*')}, {shown(number(row, 'largest'))}"
@@ -577,9 +581,9 @@ def slip_lengths_table():
     rows = [row for row in calibrate.completed(POINTS) if row["point"][:4] in names and row["memory"] == "1"]
     for row in sorted(rows, key=lambda row: (row["point"][:4], float(row["length"]), row["seed"], -float(row["dt"]))):
         step = "" if row["dt"] == "0.12" else ", half the step"
-        decades = ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
         out.append([
-            f"{names[row['point'][:4]]}: {row['length']}, {row['seed']}{step}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades})",
+            f"{names[row['point'][:4]]}: {row['length']}, {row['seed']}{step}",
+            f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
             shown(number(row, "gamma_0.0001")), f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}",
             f"{shown(number(row, 'excess'))}, {shown(number(row, 'rank'))}"
         ])
@@ -589,13 +593,16 @@ def slip_lengths_table():
 def around_table():
     """One value of s013 changed at a time, packing 1, memory 1: which of them ties the rate to the length?"""
     keys, rows = ("stress", "viscosity", "kt", "mus", "retardation"), {}
+    alike = {"memory": "1", "seed": "1", "dt": "0.12", "hold": "position"}
     for row in calibrate.completed(POINTS):
-        if row["memory"] == "1" and row["seed"] == "1" and row["dt"] == "0.12" and row["length"] in ("120", "480"):
+        if row["point"][0] == "s" and all(row[key] == value for key, value in alike.items()):
             rows.setdefault(row["point"][:4], {})[row["length"]] = row
     base, out = rows["s013"]["120"], []
     for name, found in rows.items():
-        changed = [key for key in keys if name[0] == "s" and "120" in found and found["120"][key] != base[key]]
-        if name == "s013" or len(changed) == 1 and len(found) == 2 and found["120"]["hold"] == "position":
+        if not {"120", "480"} <= set(found):
+            continue
+        changed = [key for key in keys if found["120"][key] != base[key]]
+        if name == "s013" or len(changed) == 1:
             both = [[shown(number(found[length], key)) for length in ("120", "480")]
                     for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "mean_time_0.0001", "B_0.0001", "excess")]
             out.append([", ".join(f"{key} {found['120'][key]}" for key in changed) or "none (s013)", *(", ".join(cells) for cells in both)])

@@ -198,14 +198,14 @@ class Bench:
                         words = ["-sf", "omp", "-pk", "omp", "1"] if suffix else []
                         text = self.lammps(ranks, stock, HERE / "stock.in", given, "stock.log", *words)
                         self.note("peers", f"bond {label}{suffix}{flags}", self.length, ranks, number, text)
-            for (label, esys), ranks in itertools.product(self.esys.items(), self.ranks):
+            for label, ranks in itertools.product(self.esys, self.ranks):
                 # In addition to its workers ESyS-Particle has a process that directs them and never sleeps.
-                if esys and number <= self.few and ranks < self.cores:
+                if self.esys[label] and number <= self.few and ranks < self.cores:
                     for path in Path(".").glob(f"{name}.esys.*"):
                         path.unlink()
                     words = (HERE / "esys_particle.py", name, ranks, self.length, self.steps(self.length, 10), 3)
                     try:
-                        self.note("peers", label, self.length, ranks, number, self.mpi(ranks + 1, esys, *words))
+                        self.note("peers", label, self.length, ranks, number, self.mpi(ranks + 1, self.esys[label], *words))
                     except (AssertionError, ValueError) as error:
                         self.esys[label] = None
                         print(f"{label} failed and is left out: {error}", file=sys.stderr)
