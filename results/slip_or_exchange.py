@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
-slip_or_exchange.py events RUN OUT.csv.xz           the events >= 1e-4 of a run, with the two numbers below
+slip_or_exchange.py events RUN OUT.csv.xz           the events >= 1e-4 of a run, with the three numbers below
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -20,6 +20,9 @@ For each event:
            takes up what the springs lose; 0: it does no more than at any other time, so that the energy goes to the load or waves
   rank     share of random stretches of the run, as long as the event, in which no place of the fault (bin of the slip history)
            slips as far as the place that slips farthest in the event. 0.5: it slips as far as at any other time
+  chance   share of these stretches whose excess, over the size of the event, is above 0.5
+An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
+long fault slips nearly always: shares and rates of slip leave these out.
 """
 import lzma
 import struct
@@ -33,6 +36,7 @@ import summary
 from catalogues import LOADING, draw, lsm, rows_of, text_of, write_table
 
 STRETCHES = 40  # random stretches for each event
+SLIP = 0.5  # an event with a larger excess counts as slip
 DECADES = ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1), (1e-1, np.inf))
 MEMORY = 1.0  # of the picker, for surrogates and energies; that of preset paper
 
@@ -63,28 +67,39 @@ class History:
 
 
 def judged(history, events, first):
-    """Excess and rank of events, in a history from step `first` on."""
+    """Excess, rank and chance of events, in a history from step `first` on."""
     rng, last = np.random.default_rng(1), history.steps[-1]
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
     rate = history.worked(first, last) / (last - first)
-    excess = (history.worked(begin, end) - rate * (end - begin)) / events["size"]
-    farthest, below = history.farthest(begin, end), np.zeros(len(begin))
+
+    def excess(start):
+        return np.asarray((history.worked(start, start + end - begin) - rate * (end - begin)) / events["size"])
+
+    farthest, below, chance = history.farthest(begin, end), np.zeros(len(begin)), np.zeros(len(begin))
     for _ in range(STRETCHES):
         start = rng.uniform(first, last - (end - begin).max(), len(begin))
         below += history.farthest(start, start + end - begin) < farthest
-    return np.asarray(excess), below / STRETCHES
+        chance += excess(start) > SLIP
+    return excess(begin), below / STRETCHES, chance / STRETCHES
+
+
+def slip_share(events):
+    """Share of events that are slip, beyond those that would count as slip by chance."""
+    by_chance = np.mean(events["chance"])
+    return (np.mean(events["excess"] > SLIP) - by_chance) / (1 - by_chance)
 
 
 def events(run, output):
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = catalogue[(catalogue["t_start"] >= LOADING) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
-    excess, rank = judged(history, kept, (LOADING - history.offset) / history.dt)
+    numbers = judged(history, kept, (LOADING - history.offset) / history.dt)
     names = kept.dtype.names
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {LOADING}, size >= 1e-4; excess, rank: results/slip_or_exchange.py\n{','.join(names)},excess,rank\n")
-        for event, *numbers in zip(kept, excess, rank):
-            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in numbers)]) + "\n")
+        file.write(f"# selected = t_start >= {LOADING}, size >= 1e-4; excess, rank, chance: results/slip_or_exchange.py\n")
+        file.write(f"{','.join(names)},excess,rank,chance\n")
+        for event, *of in zip(kept, *numbers):
+            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in of)]) + "\n")
 
 
 def kinds(output, *paths):
@@ -98,38 +113,39 @@ def kinds(output, *paths):
                 rows.append(
                     dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
                          events=len(of), excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]),
-                         rank=np.mean(of["rank"]), slip=np.mean((of["excess"] > 0.5) & (of["rank"] > 0.8))))
-    write_table(output, ["Events by size; excess: of their sum; slip: share with excess above 0.5 and rank above 0.8 (slip_or_exchange.py kinds)"],
-                rows)
+                         rank=np.mean(of["rank"]), chance=np.mean(of["chance"]), slip=slip_share(of)))
+    write_table(output, ["Events by size; excess: of their sum; slip: share that is slip, beyond chance (slip_or_exchange.py kinds)"], rows)
 
 
 FAULTS = {"damping": "hardly damped", "slip": "preset slip"}
 RATES = """set logscale xy
 set xrange [100:2300]
-set yrange [3:300]
+set yrange [10:2000]
 set xtics (120, 240, 480, 945, 1890)
 set xlabel 'length of the fault'
-set ylabel 'mean time between events'
+set ylabel 'mean time between events >= 0.01'
 set key outside right
 set datafile separator comma
 plot """ + ", ".join(f"table u (strcol(1) eq '{name}' ? $2 : NaN):{column} w p lc {colour} pt {point} t '{name}, {what}'"
                      for name, colour in (("hardly damped", 6), ("preset slip", 2))
-                     for what, column, point in (("all", 4, 6), ("those that are slip", 5, 7))) + ", 6970/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
+                     for what, column, point in (("all", 7, 6), ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
 
 
 def rates(base, *paths):
-    """Mean times between events of at least a size, and between those in which friction takes up more than half of the energy."""
+    """Mean times between events of at least a size, and between those that are slip."""
     rows = []
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
-        slip = found["excess"] > 0.5
         row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
-        for least in (1e-4, 1e-3, 1e-2):
-            for kind, some in (("all", found["size"] >= least), ("slip", (found["size"] >= least) & slip)):
-                row[f"{kind}_{least:g}"] = (found["t_end"].max() - LOADING) / np.sum(some) if np.any(some) else np.nan
+        for least in (1e-3, 1e-2, 1e-1):
+            large = found[found["size"] >= least]
+            time, share = np.nan, np.nan
+            if len(large):
+                time, share = (found["t_end"].max() - LOADING) / len(large), slip_share(large)
+            row |= {f"all_{least:g}": time, f"share_{least:g}": share, f"slip_{least:g}": time / share if share > 0 else np.nan}
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
-    write_table(f"{base}.csv", ["Mean time between events of at least a size; slip: friction takes up more than half (slip_or_exchange.py rates)"],
+    write_table(f"{base}.csv", ["Mean time between events of at least a size; share, slip: of those that are slip, beyond chance (slip_or_exchange.py rates)"],
                 rows)
     draw(base, RATES, 800, 400)
 
@@ -269,7 +285,7 @@ def stretch(run, begin, end):
     step = (at - history.offset) / history.dt
     lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
     kept = catalogue[(catalogue["size"] >= 1e-3) & (catalogue["step_end"] <= history.steps[-1])]
-    slip = judged(history, kept, history.steps[0])[0] > 0.5
+    slip = judged(history, kept, history.steps[0])[0] > SLIP
     spans = [(max(a, begin), min(z, end), s) for a, z, s in zip(kept["t_start"], kept["t_end"], slip) if z > begin and a < end]
     return lines, spans
 

@@ -279,7 +279,7 @@ def numbers_of_point(postproc, folder, memory, work):
     events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
     events = events[(events["t_start"] >= LOADING) & (events["size"] >= 1e-3) & (events["size"] < 0.1) & (events["step_end"] <= history.steps[-1])]
     if len(events) >= 5:
-        excess, rank = judged(history, events, (LOADING - history.offset) / history.dt)
+        excess, rank, _ = judged(history, events, (LOADING - history.offset) / history.dt)
         numbers |= {"excess": f"{np.sum(excess * events['size']) / np.sum(events['size']):.4g}", "rank": f"{np.mean(rank):.4g}"}
     return numbers
 

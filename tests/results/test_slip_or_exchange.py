@@ -25,7 +25,7 @@ def table(path):
         return list(rows_of(lines))
 
 
-def test_excess_and_rank(script, work):
+def test_excess_rank_and_chance(script, work):
     """Every 100 steps the fault slips for one step at one place, and friction takes up 0.01; the events are these or lie between them."""
     dt, bins, cycles, first = 1.0, 10, 400, 9000
     steps = first + np.arange(100 * cycles + 1)
@@ -44,9 +44,13 @@ def test_excess_and_rank(script, work):
         np.testing.assert_allclose(found["excess"], excess, atol=2e-3)
         rank = np.mean(found["rank"])
         assert rank > 0.95 if name == "run" else rank < 0.05, rank
+        # A random stretch of a step has more than half of the work in one position of a hundred.
+        assert np.mean(found["chance"]) == pytest.approx(0.01, abs=0.005)
     run(script, "kinds", "kinds.csv", "run.events.csv.xz", "quiet.events.csv.xz")
     rows = table("kinds.csv")
-    assert [(row["run"], row["events"], float(row["slip"])) for row in rows] == [("run", "400", 1.0), ("quiet", "400", 0.0)]
+    assert [(row["run"], row["events"]) for row in rows] == [("run", "400"), ("quiet", "400")]
+    chance = [float(row["chance"]) for row in rows]
+    assert [float(row["slip"]) for row in rows] == pytest.approx([1.0, -chance[1] / (1 - chance[1])], abs=1e-9)
     for folder, name in ("slip", "run"), ("damping", "quiet"):
         Path(folder).mkdir()
         Path(f"{name}.events.csv.xz").rename(f"{folder}/fault.csv.xz")
@@ -55,7 +59,15 @@ def test_excess_and_rank(script, work):
     assert (ringing["fault"], slipping["fault"]) == ("hardly damped", "preset slip")
     whole = (steps[-1] - 8000) / cycles
     assert [float(row["all_0.01"]) for row in (ringing, slipping)] == pytest.approx([whole, whole], rel=0.01)
-    assert float(slipping["slip_0.0001"]) == pytest.approx(whole, rel=0.01) and ringing["slip_0.0001"] == ""
+    assert float(slipping["slip_0.001"]) == pytest.approx(whole, rel=0.01) and ringing["slip_0.001"] == "" and slipping["all_0.1"] == ""
+
+
+def test_as_many_as_by_chance_are_no_slip():
+    """Events of which half are slip, in a fault where three tenths of all stretches would count as slip: these are left out."""
+    excess = np.concatenate([np.full(500, 0.9), np.where(np.arange(500) % 10 < 3, 0.7, -0.2)])
+    events = dict(excess=excess, chance=np.full(1000, 0.3))
+    assert slip_or_exchange.slip_share(events) == pytest.approx(0.5)
+    assert slip_or_exchange.slip_share({name: values[500:] for name, values in events.items()}) == pytest.approx(0.0)
 
 
 def test_random_phases_keep_the_spectrum():
