@@ -128,7 +128,8 @@ set key outside right
 set datafile separator comma
 plot """ + ", ".join(f"table u (strcol(1) eq '{name}' ? $2 : NaN):{column} w p lc {colour} pt {point} t '{name}, {what}'"
                      for name, colour in (("hardly damped", 6), ("preset slip", 2))
-                     for what, column, point in (("all", 7, 6), ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
+                     for what, column, point in (("all", 7, 6),
+                                                 ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
 
 
 def rates(base, *paths):
@@ -145,8 +146,8 @@ def rates(base, *paths):
             row |= {f"all_{least:g}": time, f"share_{least:g}": share, f"slip_{least:g}": time / share if share > 0 else np.nan}
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
-    write_table(f"{base}.csv", ["Mean time between events of at least a size; share, slip: of those that are slip, beyond chance (slip_or_exchange.py rates)"],
-                rows)
+    write_table(f"{base}.csv",
+                ["Mean time between events of at least a size; share, slip: of those that are slip, beyond chance (slip_or_exchange.py rates)"], rows)
     draw(base, RATES, 800, 400)
 
 

@@ -358,6 +358,7 @@ def preset_slip_table():
 
 
 def slip_rates_table():
+
     def slip_time(row, least):
         return shown(number(row, f"slip_{least}")) if number(row, f"share_{least}") > 0.03 else "-"  # as many as by chance
 
@@ -495,8 +496,10 @@ def kinds_table():
     names = {"damped": "damped, plates absorb", "fault": "hardly damped"}
     groups = grouped(read(DAMPING / "kinds.csv"), lambda row: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
     cells = {
-        name: {float(row["smallest"]): f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f}, {100 * number(row, 'slip'):.0f} ({row['events']})"
-               for row in rows}
+        name: {
+            float(row["smallest"]): f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f}, {100 * number(row, 'slip'):.0f} ({row['events']})"
+            for row in rows
+        }
         for name, rows in groups.items()
     }
     return table(["excess, rank, slip in % (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
