@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
-slip_or_exchange.py events RUN OUT.csv.xz           the events >= 1e-4 of a run, with the three numbers below
+slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the three numbers below
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -89,14 +89,15 @@ def slip_share(events):
     return (np.mean(events["excess"] > SLIP) - by_chance) / (1 - by_chance)
 
 
-def events(run, output):
+def events(run, output, begin=LOADING):
+    begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
-    kept = catalogue[(catalogue["t_start"] >= LOADING) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
-    numbers = judged(history, kept, (LOADING - history.offset) / history.dt)
+    kept = catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+    numbers = judged(history, kept, (begin - history.offset) / history.dt)
     names = kept.dtype.names
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {LOADING}, size >= 1e-4; excess, rank, chance: results/slip_or_exchange.py\n")
+        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; excess, rank, chance: results/slip_or_exchange.py\n")
         file.write(f"{','.join(names)},excess,rank,chance\n")
         for event, *of in zip(kept, *numbers):
             file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in of)]) + "\n")
@@ -137,12 +138,14 @@ def rates(base, *paths):
     rows = []
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
-        row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
+        width, begin = float(found.header["width"]), found["t_start"].min()
+        wide = "" if width == 30 else f", width {width:g}"
+        row = dict(fault=FAULTS[path.resolve().parent.name] + wide, length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-3, 1e-2, 1e-1):
             large = found[found["size"] >= least]
             time, share = np.nan, np.nan
             if len(large):
-                time, share = (found["t_end"].max() - LOADING) / len(large), slip_share(large)
+                time, share = (found["t_end"].max() - begin) / len(large), slip_share(large)
             row |= {f"all_{least:g}": time, f"share_{least:g}": share, f"slip_{least:g}": time / share if share > 0 else np.nan}
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
@@ -191,14 +194,27 @@ def mean_return(series, dt):
     return 2 * np.pi * np.sqrt(np.sum(power) / np.sum(power * (2 * np.sin(frequency / 2) / dt)**2))
 
 
+def without_slip(run, step, pe):
+    """The series with the mean of all other changes in place of those within events >= 1e-3 that count as slip."""
+    history, found = History(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
+    kept = found[(found["step_start"] >= step[0]) & (found["step_end"] <= min(step[-1], history.steps[-1])) & (found["size"] >= 1e-3)]
+    slip = kept[judged(history, kept, float(step[0]))[0] > SLIP]
+    changes, within = np.diff(pe), np.zeros(len(pe) - 1, bool)
+    for begin, end in zip(np.searchsorted(step, slip["step_start"]), np.searchsorted(step, slip["step_end"])):
+        within[begin:end] = True
+    changes[within] = np.mean(changes[~within])
+    return np.concatenate([[0.0], np.cumsum(changes)])
+
+
 def surrogates(postproc, output, *runs):
     rows = []
     for run in runs:
         series, rng = lsm.read_series(f"{run}.pe.bin"), np.random.default_rng(1)
-        dt, pe = float(series.header["dt"]), np.asarray(series["pe"][series["time"] >= LOADING])
-        for n in range(4):
-            said = numbers(postproc, with_phases(pe, rng) if n else pe, dt)
-            rows.append(dict(run=Path(run).name, series=f"phases {n}" if n else "run", **said, by_spectrum=mean_return(pe, dt)))
+        dt, kept = float(series.header["dt"]), series["time"] >= LOADING
+        pe, step = np.asarray(series["pe"][kept]), np.asarray(series["step"][kept])
+        others = {"run": pe, "without slip": without_slip(run, step, pe)} | {f"phases {n}": with_phases(pe, rng) for n in (1, 2, 3)}
+        for name, other in others.items():
+            rows.append(dict(run=Path(run).name, series=name, **numbers(postproc, other, dt), by_spectrum=mean_return(other, dt)))
     write_table(output, [f"Events >= 1e-4, memory {MEMORY}; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
 
 

@@ -13,10 +13,12 @@ import cmath
 import difflib
 import functools
 import itertools
+import lzma
 import math
 import re
 import statistics
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +29,7 @@ import calibrate  # noqa: E402
 import catalogues  # noqa: E402
 import nature  # noqa: E402
 import periods  # noqa: E402
+import slip_or_exchange  # noqa: E402
 import speed_tables  # noqa: E402
 import statements  # noqa: E402
 import summary  # noqa: E402
@@ -72,8 +75,10 @@ def faults(kind="catalogue", folder=CAMPAIGN):
 def summaries(folder=CAMPAIGN):
     """A row of summary.py for each catalogue, with the numbers of statements.py if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
-    rows = summary.rows_of(POSTPROC, paths, ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=calibrate.LOADING,
-                           parameters=("length", "seed", "width", "dt", "lambda", "mass"))
+    rows = []
+    for width, some in itertools.groupby(paths, lambda path: float(catalogues.lsm.read_catalogue(path).header["width"])):
+        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=calibrate.LOADING * width / 30,
+                                parameters=("length", "seed", "width", "dt", "lambda", "mass"))  # wider blocks are loaded later
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
@@ -458,13 +463,13 @@ def kinetic_table():
 
 
 def width_table():
-    """Blocks half and twice as wide, packing by packing."""
-    rows = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"]
-    rows = [row for row in rows if row["point"].startswith(("w_120", "d_120_5e-4_0_"))]
-    groups = grouped(sorted(rows, key=lambda row: (float(row["width"]), row["seed"])), lambda row: row["width"])
-    keys = {"one event in": "mean_time_0.0001", "B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001"}
-    keys |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
-    return table(["width", *keys], [[width, *(over(rows, key) for key in keys.values())] for width, rows in groups.items()])
+    """Blocks of other widths, and plates of other velocities, packing by packing."""
+    rows, keys = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"], {"one event in": "mean_time_0.0001"}
+    rows = [row for row in rows if row["point"].startswith(("w_120", "v_120", "d_120_5e-4_0_"))]
+    groups = grouped(sorted(rows, key=lambda row: (number(row, "velocity"), number(row, "width"), row["seed"])), lambda row: (row["width"], row["velocity"]))
+    keys |= {"B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "from": "begin"}
+    return table(["width, velocity of the plates", *keys],
+                 [[", ".join(group), *(over(rows, key) for key in keys.values())] for group, rows in groups.items()])
 
 
 def quality_table():
@@ -504,6 +509,23 @@ def kinds_table():
     }
     return table(["excess, rank, slip in % (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
                  [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))] for name, found in cells.items()])
+
+
+def apart_table():
+    """Events that count as slip, and the others, as catalogues of their own."""
+    out = []
+    for name, folder, length in [(*one, length) for one in (("hardly damped", DAMPING), ("`preset slip`", SLIP)) for length in ("120", "480", "1890")]:
+        with lzma.open(folder / f"fault_{length}_4.catalogue.csv.xz", "rt") as file, tempfile.TemporaryDirectory() as work:
+            head, events = [list(some) for _, some in itertools.groupby(file, lambda line: line[0].isdigit())]
+            excess = head[-1].strip().split(",").index("excess")
+            slips = [float(line.split(",")[excess]) > slip_or_exchange.SLIP for line in events]
+            paths = [Path(work, kind) for kind in ("slip.csv", "others.csv")]
+            for path, kind in zip(paths, (True, False)):
+                path.write_text("".join(head + [line for line, slip in zip(events, slips) if slip == kind]))
+            rows = summary.rows_of(POSTPROC, paths, ["1e-4"], calibrate.RANGES[:1], begin=calibrate.LOADING, shortest=0)
+        cells = [", ".join(shown(number(row, key)) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001")) for row in rows]
+        out.append([f"{name}, {length}, 4", *cells])
+    return table(["one in, exponent, gamma", "events that count as slip", "the others"], out)
 
 
 def energies_table():
@@ -594,6 +616,14 @@ def slip_lengths_table():
             f"{shown(number(row, 'excess'))}, {shown(number(row, 'rank'))}"
         ])
     return table(["damping: length, packing", "exponent (in each decade)", "gamma of all times", "B, one event in", "excess, rank †"], out)
+
+
+def s003_table():
+    """The set of values that had all at once with a coarse time step, with a fine one."""
+    rows = [row for row in calibrate.completed(POINTS) if row["point"].startswith("s003_") and row["dt"] == "0.03" and row["memory"] == "1"]
+    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent": EXPONENTS["1e-4 to 1e-1"], "in each decade": decades_of}
+    columns |= {"gamma of all times": "gamma_0.0001", "B, one event in": lambda row: f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"}
+    return study_table("", columns | {"excess †": "excess"}, rows)
 
 
 def around_table():

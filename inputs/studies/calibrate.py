@@ -37,7 +37,7 @@ sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "results"))
 MEMORIES = (0.4, 0.7, 1, 1.6)
 LOADING = 8000  # time units that are left out: compression, and the first loading, in which PE rises
 SETTINGS = ("length", "width", "seed", "stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "mass", "contacts", "loose", "faces",
-            "seeds", "linkratio", "dt", "massstep", "steps")  # of a point
+            "seeds", "linkratio", "velocity", "dt", "massstep", "steps")  # of a point
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
@@ -255,6 +255,14 @@ def told(row, key):
     return "" if row.get(key) is None else f"{row[key]:.6g}"
 
 
+def loaded(time, pe):
+    """Time from which a run counts: when its PE first reaches its mean of the last quarter of the time, and not before LOADING.
+
+    The first loading lasts the longer the larger stress, friction and width are and the slower the plates.
+    """
+    return max(LOADING, float(time[(pe >= pe[3 * len(pe) // 4:].mean()).argmax()]))
+
+
 def numbers_of_point(postproc, folder, memory, work):
     import numpy as np
     import summary
@@ -264,22 +272,24 @@ def numbers_of_point(postproc, folder, memory, work):
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
     subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
+    samples = lsm.read_series(series)
+    begin = loaded(samples["time"], samples["pe"])
 
     def fitted(*more, **options):
-        return summary.rows_of(postproc, [picked], ["1e-4"], *more, begin=LOADING, **options)[0]
+        return summary.rows_of(postproc, [picked], ["1e-4"], *more, begin=begin, **options)[0]
 
-    numbers = fitted(RANGES, WINDOWS, shortest=0)
+    numbers = {"begin": f"{begin:.6g}"} | fitted(RANGES, WINDOWS, shortest=0)
     squares, longer = fitted(shortest=0, method="least-squares"), fitted()
     try:
-        values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
+        values = {row["number"]: row["value"] for row in statements_of(postproc, picked, begin, folder / "fault.catalogue.csv")}
     except ValueError:  # too few events or velocities: these statements have no number
         values = {}
     numbers |= {key: told(values, name) for key, name in WORDED.items()}
     numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
     events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
-    events = events[(events["t_start"] >= LOADING) & (events["size"] >= 1e-3) & (events["size"] < 0.1) & (events["step_end"] <= history.steps[-1])]
+    events = events[(events["t_start"] >= begin) & (events["size"] >= 1e-3) & (events["size"] < 0.1) & (events["step_end"] <= history.steps[-1])]
     if len(events) >= 5:
-        excess, rank, _ = judged(history, events, (LOADING - history.offset) / history.dt)
+        excess, rank, _ = judged(history, events, (begin - history.offset) / history.dt)
         numbers |= {"excess": f"{np.sum(excess * events['size']) / np.sum(events['size']):.4g}", "rank": f"{np.mean(rank):.4g}"}
     return numbers
 

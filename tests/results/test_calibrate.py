@@ -4,6 +4,7 @@ import math
 import random
 import sys
 
+import numpy as np
 import pytest
 from programs import INPUTS
 
@@ -114,3 +115,12 @@ def test_points_are_proposed_for_what_is_not_printed_as_well(tmp_path, monkeypat
     found = [spring.coordinate(dict(word.split("=") for word in line[5].split()), "kt") for line in lines]
     # Slip needs a coordinate below 0.5; of the prior 40 % are above 0.6.
     assert sum(x > 0.6 for x in found) < 0.2 * len(found), found
+
+
+def test_a_run_counts_when_it_is_loaded():
+    """PE that rises for a time and falls back and rises again from then on; a fault that is loaded soon counts from the usual time on."""
+    time = np.arange(0.0, 30000.0, 10.0)
+    pe = np.where(time < 12000, time / 12000, 0.8 + 0.2 * ((time - 12000) % 2000) / 2000)
+    last = pe[3 * len(pe) // 4:].mean()
+    assert calibrate.loaded(time, pe) == pytest.approx(12000 * last, abs=20)
+    assert calibrate.loaded(time / 2, pe) == calibrate.LOADING

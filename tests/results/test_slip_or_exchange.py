@@ -35,7 +35,7 @@ def test_excess_rank_and_chance(script, work):
     write_history("run.slip.bin", steps, slip, work=friction, dt=dt)
     mean = friction.sum() / (len(steps) - 1)
     for name, begin, excess in (("run", steps[slips] - 1, (0.01 + 9e-6 - mean) / 0.01), ("quiet", steps[slips] + 20, (1e-5 - mean) / 0.01)):
-        write_catalogue(f"{name}.catalogue.csv", begin * dt, [0.01] * cycles, dict(model="lsm", length=10, seed=1), t_end=(begin + 1) * dt,
+        write_catalogue(f"{name}.catalogue.csv", begin * dt, [0.01] * cycles, dict(model="lsm", length=10, width=30, seed=1), t_end=(begin + 1) * dt,
                         step_start=begin, step_end=begin + 1)
         Path(f"{name}.slip.bin").write_bytes(Path("run.slip.bin").read_bytes())
         run(script, "events", name, f"{name}.events.csv.xz")
@@ -57,7 +57,7 @@ def test_excess_rank_and_chance(script, work):
     run(script, "rates", "rates", "slip/fault.csv.xz", "damping/fault.csv.xz")
     ringing, slipping = table("rates.csv")
     assert (ringing["fault"], slipping["fault"]) == ("hardly damped", "preset slip")
-    whole = (steps[-1] - 8000) / cycles
+    whole = (steps[-1] - 9000) / cycles
     assert [float(row["all_0.01"]) for row in (ringing, slipping)] == pytest.approx([whole, whole], rel=0.01)
     assert float(slipping["slip_0.001"]) == pytest.approx(whole, rel=0.01) and ringing["slip_0.001"] == "" and slipping["all_0.1"] == ""
 
@@ -99,7 +99,10 @@ def test_surrogates_and_energies(script, postproc, work):
     load, period = 0.03 * 120, 30.0
     approach = 0.01 * np.sin(2 * math.pi * time / period)
     write_series("run.pe.bin", 5.0 + 1e-6 * (time - 9000) + load * approach, dict(dt=dt, time0=9000))
-    write_catalogue("run.catalogue.csv", [9001.0], [0.1], dict(model="lsm", length=120, stress=0.03))
+    # One event that counts as slip: friction takes up all that the springs lose in the first 200 steps.
+    write_catalogue("run.catalogue.csv", [9001.0], [0.1], dict(model="lsm", length=120, stress=0.03), t_end=[9021.0], step_start=[10], step_end=[210])
+    work_done = np.where(np.arange(n) < 211, 0.1 / 200, 0.0)
+    write_history("run.slip.bin", np.arange(n), np.zeros((n, 4)), work=np.repeat(work_done[:, None] / 4, 4, axis=1), dt=dt)
     steps = np.arange(0, n, 4)
     np.savetxt("run.energy.txt", np.stack([steps, np.zeros(len(steps)), approach[::4], np.zeros(len(steps))], axis=1))
     run(script, "energies", postproc.path, "energies.csv", "run")
@@ -108,8 +111,13 @@ def test_surrogates_and_energies(script, postproc, work):
     assert abs(float(springs["events"]) - drops) <= 2 and both["events"] == moving["events"] == "0", (springs, both)
     run(script, "surrogates", postproc.path, "surrogates.csv", "run")
     rows = table("surrogates.csv")
-    assert [row["series"] for row in rows] == ["run", "phases 1", "phases 2", "phases 3"]
+    assert [row["series"] for row in rows] == ["run", "without slip", "phases 1", "phases 2", "phases 3"]
     assert all(abs(float(row["one_in"]) - period) < 2 for row in rows), rows
+    pe = 5.0 + 1e-6 * (time - 9000) + load * approach
+    changes, left = np.diff(pe), np.diff(slip_or_exchange.without_slip("run", np.arange(n), pe))
+    others = np.r_[0:10, 210:n - 1]
+    np.testing.assert_allclose(left[others], changes[others], atol=1e-12)
+    np.testing.assert_allclose(left[10:210], np.mean(changes[others]), atol=1e-12)
 
 
 def test_kinetic_energy_in_stretches_of_time(script, work):
