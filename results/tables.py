@@ -466,7 +466,8 @@ def width_table():
     """Blocks of other widths, and plates of other velocities, packing by packing."""
     rows, keys = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"], {"one event in": "mean_time_0.0001"}
     rows = [row for row in rows if row["point"].startswith(("w_120", "v_120", "d_120_5e-4_0_"))]
-    groups = grouped(sorted(rows, key=lambda row: (number(row, "velocity"), number(row, "width"), row["seed"])), lambda row: (row["width"], row["velocity"]))
+    groups = grouped(sorted(rows, key=lambda row: (number(row, "velocity"), number(row, "width"), row["seed"])), lambda row:
+                     (row["width"], row["velocity"]))
     keys |= {"B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "from": "begin"}
     return table(["width, velocity of the plates", *keys],
                  [[", ".join(group), *(over(rows, key) for key in keys.values())] for group, rows in groups.items()])
@@ -514,7 +515,8 @@ def kinds_table():
 def apart_table():
     """Events that count as slip, and the others, as catalogues of their own."""
     out = []
-    for name, folder, length in [(*one, length) for one in (("hardly damped", DAMPING), ("`preset slip`", SLIP)) for length in ("120", "480", "1890")]:
+    for name, folder, length in [(*one, length) for one in (("hardly damped", DAMPING), ("`preset slip`", SLIP))
+                                 for length in ("120", "480", "1890")]:
         with lzma.open(folder / f"fault_{length}_4.catalogue.csv.xz", "rt") as file, tempfile.TemporaryDirectory() as work:
             head, events = [list(some) for _, some in itertools.groupby(file, lambda line: line[0].isdigit())]
             excess = head[-1].strip().split(",").index("excess")
@@ -622,7 +624,10 @@ def s003_table():
     """The set of values that had all at once with a coarse time step, with a fine one."""
     rows = [row for row in calibrate.completed(POINTS) if row["point"].startswith("s003_") and row["dt"] == "0.03" and row["memory"] == "1"]
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent": EXPONENTS["1e-4 to 1e-1"], "in each decade": decades_of}
-    columns |= {"gamma of all times": "gamma_0.0001", "B, one event in": lambda row: f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"}
+    columns |= {
+        "gamma of all times": "gamma_0.0001",
+        "B, one event in": lambda row: f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"
+    }
     return study_table("", columns | {"excess †": "excess"}, rows)
 
 
