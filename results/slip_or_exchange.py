@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
-slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the three numbers below
+slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the four numbers below
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -21,6 +21,8 @@ For each event:
   rank     share of random stretches of the run, as long as the event, in which no place of the fault (bin of the slip history)
            slips as far as the place that slips farthest in the event. 0.5: it slips as far as at any other time
   chance   share of these stretches whose excess, over the size of the event, is above 0.5
+  together share of random stretches of the run, as long as the event, of whose slip half lies in a longer part of the fault than of
+           that of the event. 0.5: its slip is scattered like that of any other time
 An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
 long fault slips nearly always: shares and rates of slip leave these out.
 """
@@ -62,6 +64,14 @@ class History:
         """Slip of the place that slips farthest from step `begin` to step `end`."""
         return (self.slipped(end) - self.slipped(begin)).max(axis=1)
 
+    def half(self, begin, end):
+        """Length, in places, of the shortest part of the fault (a ring) with half of the slip from step `begin` to step `end`."""
+        slip, shortest = np.maximum(self.slipped(end) - self.slipped(begin), 0.0), []
+        for ring in np.concatenate([np.zeros((len(slip), 1)), np.cumsum(np.concatenate([slip, slip], axis=1), axis=1)], axis=1):
+            places = np.arange(slip.shape[1])
+            shortest.append((np.searchsorted(ring, ring[places] + ring[len(places)] / 2) - places).min())
+        return np.array(shortest)
+
     def worked(self, begin, end):
         return np.interp(end, self.steps, self.work) - np.interp(begin, self.steps, self.work)
 
@@ -83,6 +93,17 @@ def judged(history, events, first):
     return excess(begin), below / STRETCHES, chance / STRETCHES
 
 
+def gathered(history, events, first):
+    """Whether the slip of each event lies together, in a history from step `first` on."""
+    rng, last = np.random.default_rng(2), history.steps[-1]
+    begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
+    own, longer = history.half(begin, end), np.zeros(len(begin))
+    for _ in range(STRETCHES):
+        start = rng.uniform(first, last - (end - begin).max(), len(begin))
+        longer += history.half(start, start + end - begin) > own
+    return longer / STRETCHES
+
+
 def slip_share(events):
     """Share of events that are slip, beyond those that would count as slip by chance."""
     by_chance = np.mean(events["chance"])
@@ -93,12 +114,13 @@ def events(run, output, begin=LOADING):
     begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
-    numbers = judged(history, kept, (begin - history.offset) / history.dt)
+    first = (begin - history.offset) / history.dt
+    numbers = (*judged(history, kept, first), gathered(history, kept, first))
     names = kept.dtype.names
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; excess, rank, chance: results/slip_or_exchange.py\n")
-        file.write(f"{','.join(names)},excess,rank,chance\n")
+        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; excess, rank, chance, together: results/slip_or_exchange.py\n")
+        file.write(f"{','.join(names)},excess,rank,chance,together\n")
         for event, *of in zip(kept, *numbers):
             file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in of)]) + "\n")
 
@@ -114,7 +136,7 @@ def kinds(output, *paths):
                 rows.append(
                     dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
                          events=len(of), excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]),
-                         rank=np.mean(of["rank"]), chance=np.mean(of["chance"]), slip=slip_share(of)))
+                         rank=np.mean(of["rank"]), together=np.mean(of["together"]), chance=np.mean(of["chance"]), slip=slip_share(of)))
     write_table(output, ["Events by size; excess: of their sum; slip: share that is slip, beyond chance (slip_or_exchange.py kinds)"], rows)
 
 

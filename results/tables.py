@@ -499,16 +499,18 @@ def crossing_table():
 
 def kinds_table():
     """Events by size: frictional work and slip within them."""
-    names = {"damped": "damped, plates absorb", "fault": "hardly damped"}
-    groups = grouped(read(DAMPING / "kinds.csv"), lambda row: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
+    groups = {}
+    for folder, names in (DAMPING, {"damped": "damped, plates absorb", "fault": "hardly damped"}), (SLIP, {"fault": "`preset slip`"}):
+        groups |= grouped(read(folder / "kinds.csv"), lambda row, names=names: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
     cells = {
         name: {
-            float(row["smallest"]): f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f}, {100 * number(row, 'slip'):.0f} ({row['events']})"
+            float(row["smallest"]):
+            f"{', '.join(f'{number(row, key):.2f}' for key in ('excess', 'rank', 'together'))}, {100 * number(row, 'slip'):.0f} ({row['events']})"
             for row in rows
         }
         for name, rows in groups.items()
     }
-    return table(["excess, rank, slip in % (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
+    return table(["excess, rank, together, slip in % (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
                  [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))] for name, found in cells.items()])
 
 

@@ -62,6 +62,18 @@ def test_excess_rank_and_chance(script, work):
     assert float(slipping["slip_0.001"]) == pytest.approx(whole, rel=0.01) and ringing["slip_0.001"] == "" and slipping["all_0.1"] == ""
 
 
+def test_half_of_the_slip_lies_together_or_is_scattered(work):
+    """Half of the slip in two neighbouring places of a ring of ten, the first and the last; the same slip everywhere; all in one place."""
+    slip = np.full((201, 10), 0.01)
+    slip[1], slip[200] = [4, 1, 1, 1, 1, 1, 1, 1, 1, 4], [0, 0, 7, 0, 0, 0, 0, -1, 0, 0]
+    write_history("run.slip.bin", np.arange(201), slip)
+    history, begin = slip_or_exchange.History("run.slip.bin"), np.array([0.0, 1.0, 199.0])
+    assert list(history.half(begin, begin + 1)) == [2, 5, 1]
+    events = np.array([(199.0, 200.0), (1.0, 2.0)], [("step_start", float), ("step_end", float)])
+    together, scattered = slip_or_exchange.gathered(history, events, 0.0)
+    assert together > 0.9 and scattered == 0.0, (together, scattered)
+
+
 def test_as_many_as_by_chance_are_no_slip():
     """Events of which half are slip, in a fault where three tenths of all stretches would count as slip: these are left out."""
     excess = np.concatenate([np.full(500, 0.9), np.where(np.arange(500) % 10 < 3, 0.7, -0.2)])
