@@ -370,7 +370,7 @@ def slip_rates_table():
     columns = {"fault, length, packing": lambda row: f"{row['fault']}, {row['length']}, {row['seed']}"}
     for least in ("0.001", "0.01", "0.1"):
         columns[f">= {least}: one in; slip in %; one that is slip in"] = (
-            lambda row, least=least: f"{shown(number(row, f'all_{least}'))}; {100 * number(row, f'share_{least}'):.0f}; {slip_time(row, least)}")
+            lambda row, least=least: f"{shown(number(row, f'all_{least}'))}; {round(100 * number(row, f'share_{least}'))}; {slip_time(row, least)}")
     return study_table("slip_rates.csv", columns)
 
 
@@ -505,7 +505,7 @@ def kinds_table():
     cells = {
         name: {
             float(row["smallest"]):
-            f"{', '.join(f'{number(row, key):.2f}' for key in ('excess', 'rank', 'together'))}, {100 * number(row, 'slip'):.0f} ({row['events']})"
+            f"{', '.join(f'{number(row, key):.2f}' for key in ('excess', 'rank', 'together'))}, {round(100 * number(row, 'slip'))} ({row['events']})"
             for row in rows
         }
         for name, rows in groups.items()
