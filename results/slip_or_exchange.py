@@ -67,8 +67,8 @@ class History:
     def half(self, begin, end):
         """Length, in places, of the shortest part of the fault (a ring) with half of the slip from step `begin` to step `end`."""
         slip, shortest = np.maximum(self.slipped(end) - self.slipped(begin), 0.0), []
+        places = np.arange(slip.shape[1])
         for ring in np.concatenate([np.zeros((len(slip), 1)), np.cumsum(np.concatenate([slip, slip], axis=1), axis=1)], axis=1):
-            places = np.arange(slip.shape[1])
             shortest.append((np.searchsorted(ring, ring[places] + ring[len(places)] / 2) - places).min())
         return np.array(shortest)
 
@@ -76,18 +76,23 @@ class History:
         return np.interp(end, self.steps, self.work) - np.interp(begin, self.steps, self.work)
 
 
+def random_starts(history, lasting, first, seed):
+    """Steps at which random stretches begin, one for each of the events, in a history from step `first` on."""
+    rng = np.random.default_rng(seed)
+    for _ in range(STRETCHES):
+        yield rng.uniform(first, history.steps[-1] - lasting.max(), len(lasting))
+
+
 def judged(history, events, first):
     """Excess, rank and chance of events, in a history from step `first` on."""
-    rng, last = np.random.default_rng(1), history.steps[-1]
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
-    rate = history.worked(first, last) / (last - first)
+    rate = history.worked(first, history.steps[-1]) / (history.steps[-1] - first)
 
     def excess(start):
         return np.asarray((history.worked(start, start + end - begin) - rate * (end - begin)) / events["size"])
 
     farthest, below, chance = history.farthest(begin, end), np.zeros(len(begin)), np.zeros(len(begin))
-    for _ in range(STRETCHES):
-        start = rng.uniform(first, last - (end - begin).max(), len(begin))
+    for start in random_starts(history, end - begin, first, 1):
         below += history.farthest(start, start + end - begin) < farthest
         chance += excess(start) > SLIP
     return excess(begin), below / STRETCHES, chance / STRETCHES
@@ -95,11 +100,9 @@ def judged(history, events, first):
 
 def gathered(history, events, first):
     """Whether the slip of each event lies together, in a history from step `first` on."""
-    rng, last = np.random.default_rng(2), history.steps[-1]
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
     own, longer = history.half(begin, end), np.zeros(len(begin))
-    for _ in range(STRETCHES):
-        start = rng.uniform(first, last - (end - begin).max(), len(begin))
+    for start in random_starts(history, end - begin, first, 2):
         longer += history.half(start, start + end - begin) > own
     return longer / STRETCHES
 
