@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
-slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the four numbers below
+slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the work of friction and what is below
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -16,8 +16,9 @@ slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and i
 
 RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
 For each event:
-  excess   frictional work within it, less what friction does in as much time on the mean of the run, over its size. 1: friction
-           takes up what the springs lose; 0: it does no more than at any other time, so that the energy goes to the load or waves
+  excess   frictional work within it, less what friction does in as much time on the mean of the run (in a catalogue: from the first
+           event to the last, as in `postproc --where "excess > 0.5"`), over its size. 1: friction takes up what the springs lose; 0:
+           it does no more than at any other time, so that the energy goes to the load or waves
   rank     share of random stretches of the run, as long as the event, in which no place of the fault (bin of the slip history)
            slips as far as the place that slips farthest in the event. 0.5: it slips as far as at any other time
   chance   share of these stretches whose excess, over the size of the event, is above 0.5
@@ -72,8 +73,12 @@ class History:
             shortest.append((np.searchsorted(ring, ring[places] + ring[len(places)] / 2) - places).min())
         return np.array(shortest)
 
+    def done(self, at):
+        """Frictional work until a step."""
+        return np.interp(at, self.steps, self.work)
+
     def worked(self, begin, end):
-        return np.interp(end, self.steps, self.work) - np.interp(begin, self.steps, self.work)
+        return self.done(end) - self.done(begin)
 
 
 def random_starts(history, lasting, first, seed):
@@ -98,6 +103,12 @@ def judged(history, events, first):
     return excess(begin), below / STRETCHES, chance / STRETCHES
 
 
+def excess_of(events):
+    """Excess of the events of a catalogue, by their work of friction."""
+    rate = (events["friction_total"][-1] - events["friction_total"][0]) / (events["t_end"][-1] - events["t_end"][0])
+    return np.asarray((events["friction_work"] - rate * (events["t_end"] - events["t_start"])) / events["size"])
+
+
 def gathered(history, events, first):
     """Whether the slip of each event lies together, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
@@ -107,10 +118,9 @@ def gathered(history, events, first):
     return longer / STRETCHES
 
 
-def slip_share(events):
+def slip_share(excess, chance):
     """Share of events that are slip, beyond those that would count as slip by chance."""
-    by_chance = np.mean(events["chance"])
-    return (np.mean(events["excess"] > SLIP) - by_chance) / (1 - by_chance)
+    return (np.mean(excess > SLIP) - np.mean(chance)) / (1 - np.mean(chance))
 
 
 def events(run, output, begin=LOADING):
@@ -118,28 +128,31 @@ def events(run, output, begin=LOADING):
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
     first = (begin - history.offset) / history.dt
-    numbers = (*judged(history, kept, first), gathered(history, kept, first))
-    names = kept.dtype.names
+    begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
+    numbers = (history.worked(begins, ends), history.done(ends), *judged(history, kept, first)[1:], gathered(history, kept, first))
+    names = [name for name in kept.dtype.names if not name.startswith("friction_")]
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; excess, rank, chance, together: results/slip_or_exchange.py\n")
-        file.write(f"{','.join(names)},excess,rank,chance,together\n")
+        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together: results/slip_or_exchange.py\n")
+        file.write(f"{','.join(names)},friction_work,friction_total,rank,chance,together\n")
         for event, *of in zip(kept, *numbers):
-            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in of)]) + "\n")
+            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.9g}" for number in of)]) + "\n")
 
 
 def kinds(output, *paths):
     rows = []
     for path in paths:
         found = lsm.read_catalogue(path)
+        every = excess_of(found)
         for low, high in DECADES:
-            of = found[(found["size"] >= low) & (found["size"] < high)]
+            within = (found["size"] >= low) & (found["size"] < high)
+            of, excess = found[within], every[within]
             if len(of) >= 5:
                 size = of["size"]
                 rows.append(
                     dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
-                         events=len(of), excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]),
-                         rank=np.mean(of["rank"]), together=np.mean(of["together"]), chance=np.mean(of["chance"]), slip=slip_share(of)))
+                         events=len(of), excess=np.sum(excess * size) / np.sum(size), excess_median=np.median(excess), rank=np.mean(of["rank"]),
+                         together=np.mean(of["together"]), chance=np.mean(of["chance"]), slip=slip_share(excess, of["chance"])))
     write_table(output, ["Events by size; excess: of their sum; slip: share that is slip, beyond chance (slip_or_exchange.py kinds)"], rows)
 
 
@@ -163,14 +176,15 @@ def rates(base, *paths):
     rows = []
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
+        excess = excess_of(found)
         width, begin = float(found.header["width"]), found["t_start"].min()
         wide = "" if width == 30 else f", width {width:g}"
         row = dict(fault=FAULTS[path.resolve().parent.name] + wide, length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-3, 1e-2, 1e-1):
-            large = found[found["size"] >= least]
+            large = found["size"] >= least
             time, share = np.nan, np.nan
-            if len(large):
-                time, share = (found["t_end"].max() - begin) / len(large), slip_share(large)
+            if np.any(large):
+                time, share = (found["t_end"].max() - begin) / np.sum(large), slip_share(excess[large], found["chance"][large])
             row |= {f"all_{least:g}": time, f"share_{least:g}": share, f"slip_{least:g}": time / share if share > 0 else np.nan}
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))

@@ -13,10 +13,10 @@ import cmath
 import difflib
 import functools
 import itertools
-import lzma
 import math
 import re
 import statistics
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -519,13 +519,11 @@ def apart_table():
     out = []
     for name, folder, length in [(*one, length) for one in (("hardly damped", DAMPING), ("`preset slip`", SLIP))
                                  for length in ("120", "480", "1890")]:
-        with lzma.open(folder / f"fault_{length}_4.catalogue.csv.xz", "rt") as file, tempfile.TemporaryDirectory() as work:
-            head, events = [list(some) for _, some in itertools.groupby(file, lambda line: line[0].isdigit())]
-            excess = head[-1].strip().split(",").index("excess")
-            slips = [float(line.split(",")[excess]) > slip_or_exchange.SLIP for line in events]
+        with tempfile.TemporaryDirectory() as work:
             paths = [Path(work, kind) for kind in ("slip.csv", "others.csv")]
-            for path, kind in zip(paths, (True, False)):
-                path.write_text("".join(head + [line for line, slip in zip(events, slips) if slip == kind]))
+            for path, kind in zip(paths, (">", "<=")):
+                command = [POSTPROC, "select", folder / f"fault_{length}_4.catalogue.csv.xz", "--where", f"excess {kind} {slip_or_exchange.SLIP}"]
+                subprocess.run([*command, "-o", path], check=True, stdout=subprocess.DEVNULL)
             rows = summary.rows_of(POSTPROC, paths, ["1e-4"], calibrate.RANGES[:1], begin=calibrate.LOADING, shortest=0)
         cells = [", ".join(shown(number(row, key)) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001")) for row in rows]
         out.append([f"{name}, {length}, 4", *cells])

@@ -25,7 +25,7 @@ def table(path):
         return list(rows_of(lines))
 
 
-def test_excess_rank_and_chance(script, work):
+def test_excess_rank_and_chance(script, postproc, work):
     """Every 100 steps the fault slips for one step at one place, and friction takes up 0.01; the events are these or lie between them."""
     dt, bins, cycles, first = 1.0, 10, 400, 9000
     steps = first + np.arange(100 * cycles + 1)
@@ -41,7 +41,9 @@ def test_excess_rank_and_chance(script, work):
         run(script, "events", name, f"{name}.events.csv.xz")
         _, found = read_catalogue(f"{name}.events.csv.xz")
         assert len(found["size"]) == cycles
-        np.testing.assert_allclose(found["excess"], excess, atol=2e-3)
+        np.testing.assert_allclose(slip_or_exchange.excess_of(found), excess, atol=2e-3)
+        run(postproc, "select", f"{name}.events.csv.xz", "--where", "excess>0.5", "-o", f"{name}.slip.csv")
+        assert len(read_catalogue(f"{name}.slip.csv")[1]["size"]) == (cycles if name == "run" else 0)
         rank = np.mean(found["rank"])
         assert rank > 0.95 if name == "run" else rank < 0.05, rank
         # A random stretch of a step has more than half of the work in one position of a hundred.
@@ -77,9 +79,9 @@ def test_half_of_the_slip_lies_together_or_is_scattered(work):
 def test_as_many_as_by_chance_are_no_slip():
     """Events of which half are slip, in a fault where three tenths of all stretches would count as slip: these are left out."""
     excess = np.concatenate([np.full(500, 0.9), np.where(np.arange(500) % 10 < 3, 0.7, -0.2)])
-    events = dict(excess=excess, chance=np.full(1000, 0.3))
-    assert slip_or_exchange.slip_share(events) == pytest.approx(0.5)
-    assert slip_or_exchange.slip_share({name: values[500:] for name, values in events.items()}) == pytest.approx(0.0)
+    chance = np.full(1000, 0.3)
+    assert slip_or_exchange.slip_share(excess, chance) == pytest.approx(0.5)
+    assert slip_or_exchange.slip_share(excess[500:], chance[500:]) == pytest.approx(0.0)
 
 
 def test_random_phases_keep_the_spectrum():
