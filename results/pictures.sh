@@ -41,14 +41,17 @@ for part; do
       scaling "${every[@]}" --threshold 1e-3 --from "$loading" -o "$new/fault_fit.scaling"
       scaling "${every[@]/catalogue/ruptures}" --threshold 1e-2 --from "$loading" -o "$new/fault_rupture_fit.scaling"
       common=(--from "$loading" --threshold 1e-4)
-      "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
-      "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
-      "$postproc" intervals damping/fault_{120,240,480,945}_4.catalogue.csv.xz "${common[@]}" --shuffles 0 -o "$new/damping_times"
+      both() { # sizes and inter-event times of catalogues, as in Figs. 12 and 14
+        "$postproc" histograms "${@:3}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/$1"
+        "$postproc" intervals "${@:3}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/$2"
+      }
+      both fig12_fault_sizes fig14_fault_intervals "${faults[@]}"
+      both damping_sizes damping_times damping/fault_{120,240,480,945,1440,1890}_4.catalogue.csv.xz
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv png; do cp "$new/$fit.scaling.$kind" .; done
       done
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
-      for name in fig12_fault_sizes fig13_slider_sizes damping_times; do
+      for name in fig12_fault_sizes fig13_slider_sizes damping_sizes damping_times; do
         for kind in csv gp png svg; do cp "$new/$name.$kind" .; done
       done
       for name in fig14_fault_intervals fig15_slider_intervals; do

@@ -16,14 +16,15 @@ slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and i
 
 RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
 For each event:
-  excess   frictional work within it, less what friction does in as much time on the mean of the run (in a catalogue: from the first
-           event to the last, as in `postproc --where "excess > 0.5"`), over its size. 1: friction takes up what the springs lose; 0:
-           it does no more than at any other time, so that the energy goes to the load or waves
-  rank     share of random stretches of the run, as long as the event, in which no place of the fault (bin of the slip history)
-           slips as far as the place that slips farthest in the event. 0.5: it slips as far as at any other time
+  excess   frictional work within it, less what friction does in as much time between events, over its size, as in
+           `postproc --where "excess > 0.5"`. 1: friction takes up what the springs lose; 0: it does no more than between events, so
+           that the energy goes to the load or waves
+  rank     share of random stretches of the run in which no place of the fault (bin of the slip history) slips as far as the place
+           that slips farthest in the event. 0.5: it slips as far as at any other time
   chance   share of these stretches whose excess, over the size of the event, is above 0.5
-  together share of random stretches of the run, as long as the event, of whose slip half lies in a longer part of the fault than of
-           that of the event. 0.5: its slip is scattered like that of any other time
+  together share of random stretches of whose slip half lies in a longer part of the fault than of that of the event. 0.5: its slip is
+           scattered like that of any other time
+The stretches are as long as the event, and no event of its size or more goes on in them.
 An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
 long fault slips nearly always: shares and rates of slip leave these out.
 """
@@ -81,39 +82,56 @@ class History:
         return self.done(end) - self.done(begin)
 
 
-def random_starts(history, lasting, first, seed):
-    """Steps at which random stretches begin, one for each of the events, in a history from step `first` on."""
-    rng = np.random.default_rng(seed)
+def random_starts(history, events, first, seed):
+    """Steps at which random stretches begin, STRETCHES for each event, as long, in which no event of its size or more goes on.
+
+    A stretch that meets one is drawn again, a hundred times at most: the fault may be busy. In a history from step `first` on.
+    """
+    rng, begin, end = np.random.default_rng(seed), events["step_start"].astype(float), events["step_end"].astype(float)
+    lasting, size = end - begin, np.append(events["size"], 0.0)
+
+    def busy(start, of):
+        """Whether events of the sizes of those `of` go on in stretches."""
+        places = np.stack([np.searchsorted(end, start, "right"), np.searchsorted(begin, start + lasting[of])])
+        return (places[0] < places[1]) & (np.maximum.reduceat(size, places.T.ravel())[::2] >= size[of])
+
     for _ in range(STRETCHES):
-        yield rng.uniform(first, history.steps[-1] - lasting.max(), len(lasting))
+        start, again = np.zeros(len(lasting)), np.arange(len(lasting))
+        for _ in range(100):
+            start[again] = rng.uniform(first, history.steps[-1] - lasting.max(), len(again))
+            again = again[busy(start[again], again)]
+        yield start
 
 
 def judged(history, events, first):
-    """Excess, rank and chance of events, in a history from step `first` on."""
+    """Excess, rank and chance of all events of a run, in order, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
-    rate = history.worked(first, history.steps[-1]) / (history.steps[-1] - first)
+    work = history.worked(begin, end)
+    rate = (history.worked(first, history.steps[-1]) - np.sum(work)) / (history.steps[-1] - first - np.sum(end - begin))
 
-    def excess(start):
-        return np.asarray((history.worked(start, start + end - begin) - rate * (end - begin)) / events["size"])
+    def excess(work):
+        return np.asarray((work - rate * (end - begin)) / events["size"])
 
     farthest, below, chance = history.farthest(begin, end), np.zeros(len(begin)), np.zeros(len(begin))
-    for start in random_starts(history, end - begin, first, 1):
+    for start in random_starts(history, events, first, 1):
         below += history.farthest(start, start + end - begin) < farthest
-        chance += excess(start) > SLIP
-    return excess(begin), below / STRETCHES, chance / STRETCHES
+        chance += excess(history.worked(start, start + end - begin)) > SLIP
+    return excess(work), below / STRETCHES, chance / STRETCHES
 
 
 def excess_of(events):
     """Excess of the events of a catalogue, by their work of friction."""
-    rate = (events["friction_total"][-1] - events["friction_total"][0]) / (events["t_end"][-1] - events["t_end"][0])
-    return np.asarray((events["friction_work"] - rate * (events["t_end"] - events["t_start"])) / events["size"])
+    work, lasting = events["friction_work"], events["t_end"] - events["t_start"]
+    between = events["friction_total"][-1] - events["friction_total"][0] - np.sum(work[1:])
+    rate = between / (events["t_end"][-1] - events["t_end"][0] - np.sum(lasting[1:]))
+    return np.asarray((work - rate * lasting) / events["size"])
 
 
 def gathered(history, events, first):
     """Whether the slip of each event lies together, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
     own, longer = history.half(begin, end), np.zeros(len(begin))
-    for start in random_starts(history, end - begin, first, 2):
+    for start in random_starts(history, events, first, 2):
         longer += history.half(start, start + end - begin) > own
     return longer / STRETCHES
 
@@ -159,16 +177,16 @@ def kinds(output, *paths):
 FAULTS = {"damping": "hardly damped", "slip": "preset slip"}
 RATES = """set logscale xy
 set xrange [100:2300]
-set yrange [10:2000]
-set xtics (120, 240, 480, 945, 1890)
+set yrange [10:1000]
+set xtics (120, 240, 480, 945, 1440, 1890)
 set xlabel 'length of the fault'
 set ylabel 'mean time between events >= 0.01'
-set key outside right
+set key outside bottom center horizontal maxcols 2 height 1 Left reverse
 set datafile separator comma
 plot """ + ", ".join(f"table u (strcol(1) eq '{name}' ? $2 : NaN):{column} w p lc {colour} pt {point} t '{name}, {what}'"
                      for name, colour in (("hardly damped", 6), ("preset slip", 2))
                      for what, column, point in (("all", 7, 6),
-                                                 ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1/length'"
+                                                 ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1 / length: independent places'"
 
 
 def rates(base, *paths):
@@ -178,7 +196,7 @@ def rates(base, *paths):
         found = lsm.read_catalogue(path)
         excess = excess_of(found)
         width, begin = float(found.header["width"]), found["t_start"].min()
-        wide = "" if width == 30 else f", width {width:g}"
+        wide = "" if width == 30 else f" (width {width:g})"
         row = dict(fault=FAULTS[path.resolve().parent.name] + wide, length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-3, 1e-2, 1e-1):
             large = found["size"] >= least
@@ -190,7 +208,7 @@ def rates(base, *paths):
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))
     write_table(f"{base}.csv",
                 ["Mean time between events of at least a size; share, slip: of those that are slip, beyond chance (slip_or_exchange.py rates)"], rows)
-    draw(base, RATES, 800, 400)
+    draw(base, RATES, 800, 520)
 
 
 # ---- events of other series
@@ -204,24 +222,38 @@ def write_series(path, pe, dt):
 
 
 def numbers(postproc, pe, dt):
-    """Number, mean time, exponent, gamma and B of the events >= 1e-4 of a series, by postproc."""
+    """Number, mean time, exponent, and gamma and B of all times, of the events >= 1e-4 of a series, by postproc."""
     with tempfile.TemporaryDirectory() as work:
         write_series(f"{work}/pe.bin", pe, dt)
         common = dict(check=True, stdout=subprocess.PIPE, text=True)
         subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(MEMORY)], **common)
         if not np.any(lsm.read_catalogue(f"{work}/picked.csv")["size"] >= 1e-4):
             return dict(events=0, **dict.fromkeys(("one_in", "exponent", "gamma", "B"), np.nan))
-        row, = summary.rows_of(postproc, [f"{work}/picked.csv"], ["1e-4"], ["1e-4:1e-1"])
+        row, = summary.rows_of(postproc, [f"{work}/picked.csv"], ["1e-4"], ["1e-4:1e-1"], shortest=0)
     keys = dict(events="events_0.0001", one_in="mean_time_0.0001", exponent="exponent_1e-4:1e-1", gamma="gamma_0.0001", B="B_0.0001")
     return {name: float(row[key]) if row[key] else np.nan for name, key in keys.items()}
 
 
-def with_phases(series, rng):
-    """A Gaussian series whose changes have the spectrum of those of another: random phases (Theiler et al. 1992, Physica D 58, 77)."""
-    spectrum = np.fft.rfft(np.diff(series))
+def with_phases(series, rng, response=None):
+    """A Gaussian series whose changes have the spectrum of those of another: random phases (Theiler et al. 1992, Physica D 58, 77).
+
+    response: of an oscillator, by frequency; the changes are then its velocity, with the mean and the variance of those of the other
+    """
+    spectrum = np.abs(np.fft.rfft(np.diff(series)))
+    if response is not None:
+        spectrum[1:] = response[1:] * np.sqrt(np.sum(spectrum[1:]**2) / np.sum(response[1:]**2))
     phases = np.exp(2j * np.pi * rng.random(len(spectrum)))
-    phases[0] = 1.0  # the mean change stays
-    return np.concatenate([[0.0], np.cumsum(np.fft.irfft(np.abs(spectrum) * phases, len(series) - 1))])
+    phases[0] = np.sign(series[-1] - series[0])  # the mean change stays
+    return np.concatenate([[0.0], np.cumsum(np.fft.irfft(spectrum * phases, len(series) - 1))])
+
+
+RINGING = 33.0  # period of the blocks between the plates
+
+
+def oscillator(samples, dt, viscosity):
+    """Velocity of a linear oscillator that has the period of the blocks, shaken by white noise, by frequency of so many samples."""
+    w, own = 2 * np.pi * np.fft.rfftfreq(samples, dt), 2 * np.pi / RINGING
+    return w / np.abs(own**2 - w**2 + 1j * w * viscosity)
 
 
 def mean_return(series, dt):
@@ -236,8 +268,8 @@ def mean_return(series, dt):
 def without_slip(run, step, pe):
     """The series with the mean of all other changes in place of those within events >= 1e-3 that count as slip."""
     history, found = History(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
-    kept = found[(found["step_start"] >= step[0]) & (found["step_end"] <= min(step[-1], history.steps[-1])) & (found["size"] >= 1e-3)]
-    slip = kept[judged(history, kept, float(step[0]))[0] > SLIP]
+    kept = found[(found["step_start"] >= step[0]) & (found["step_end"] <= min(step[-1], history.steps[-1])) & (found["size"] >= 1e-4)]
+    slip = kept[(judged(history, kept, float(step[0]))[0] > SLIP) & (kept["size"] >= 1e-3)]
     changes, within = np.diff(pe), np.zeros(len(pe) - 1, bool)
     for begin, end in zip(np.searchsorted(step, slip["step_start"]), np.searchsorted(step, slip["step_end"])):
         within[begin:end] = True
@@ -252,6 +284,9 @@ def surrogates(postproc, output, *runs):
         dt, kept = float(series.header["dt"]), series["time"] >= LOADING
         pe, step = np.asarray(series["pe"][kept]), np.asarray(series["step"][kept])
         others = {"run": pe, "without slip": without_slip(run, step, pe)} | {f"phases {n}": with_phases(pe, rng) for n in (1, 2, 3)}
+        viscosity = float(series.header.get("viscosity", 0))
+        if viscosity > 0:
+            others["oscillator"] = with_phases(pe, rng, oscillator(len(pe) - 1, dt, viscosity))
         for name, other in others.items():
             rows.append(dict(run=Path(run).name, series=name, **numbers(postproc, other, dt), by_spectrum=mean_return(other, dt)))
     write_table(output, [f"Events >= 1e-4, memory {MEMORY}; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
@@ -340,9 +375,9 @@ def stretch(run, begin, end):
     at = np.arange(begin, end)
     step = (at - history.offset) / history.dt
     lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
-    kept = catalogue[(catalogue["size"] >= 1e-3) & (catalogue["step_end"] <= history.steps[-1])]
+    kept = catalogue[(catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
     slip = judged(history, kept, history.steps[0])[0] > SLIP
-    spans = [(max(a, begin), min(z, end), s) for a, z, s in zip(kept["t_start"], kept["t_end"], slip) if z > begin and a < end]
+    spans = [(max(a, begin), min(z, end), s) for a, z, s, size in zip(kept["t_start"], kept["t_end"], slip, kept["size"]) if size >= 1e-3 and z > begin and a < end]
     return lines, spans
 
 
@@ -385,9 +420,6 @@ def decides(base, points):
                     data += "".join(f"{x:g} {np.mean(y):.5g} {np.std(y, ddof=1) if len(y) > 1 else 0:.5g}\n" for x, y in sorted(at.items())) + "e\n"
         script += f"{how}\n{'set' if n == 0 else 'unset'} key\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}"
     draw(base, script + "unset multiplot", 1100, 760)
-
-
-RINGING = 33.0  # period of the blocks between the plates
 
 
 def quality(output, *runs):

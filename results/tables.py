@@ -346,8 +346,9 @@ def decades_of(row):
 
 def of_preset(folder):
     """Catalogues of a preset, none of whose packings was used to choose its values."""
-    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
-    columns |= {"in each decade": decades_of}
+    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}"}
+    columns["exponent 1e-4 to 0.1, distance"] = lambda row: f"{of(row, EXPONENTS['1e-4 to 1e-1'])}, {number(row, 'ks_1e-4:1e-1'):.2g}"
+    columns["in each decade"] = decades_of
     columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_0.0001'))}, {shown(number(row, 'gamma_longer'))}"}
     columns |= {"B of all times": "B_0.0001"}
     columns |= {"one event in, without those within 0.6": lambda row: f"{shown(number(row, 'mean_time_0.0001'))}, {shown(number(row, 'apart'))}"}
@@ -400,10 +401,13 @@ def wandering_table():
 
 
 def short_waves_table():
-    """The hardly damped fault, packing 4, with retardation of links."""
+    """The hardly damped fault, packing 4, with retardation of links; without, in as much time."""
     rows = [row for row in read(DAMPING / "points.csv") if row["point"].startswith("t_") and row["memory"] == "1" and row["retardation"] != "0"]
-    lengths = {row["length"] for row in rows}
-    without = [{**row, "retardation": "0"} for row in of_all_times(DAMPING) if row["seed"] == "4" and row["length"] in lengths]
+    without = []
+    for length, some in grouped(rows, lambda row: row["length"]).items():
+        end = calibrate.LOADING + statistics.median(number(row, "time") for row in some)
+        without += in_window(f"fault_{length}_4", calibrate.LOADING, end)
+    without = [{**row, "retardation": "0"} for row in without]
     columns = {"length, retardation": lambda row: f"{row['length']}, {float(row['retardation']):g}", "one event in": "mean_time_0.0001"}
     columns |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "gamma of all times": "gamma_0.0001", "B": "B_0.0001"}
     return study_table("", columns, sorted(without + rows, key=lambda row: (int(row["length"]), float(row["retardation"]))))
@@ -424,12 +428,17 @@ def recipes_table():
     return table(["recipe, length", "exponent (in each decade)", "gamma of all times", "B", "one event in", "s*, largest event"], out)
 
 
+def in_window(name, begin, end):
+    """Numbers of the events of a hardly damped fault within a time."""
+    path = DAMPING / f"{name}.catalogue.csv.xz"
+    return summary.rows_of(POSTPROC, [path], ["1e-4"], ["1e-4:1e-1"], (), ("length", "dt"), begin, end, shortest=0)
+
+
 def half_step_table():
-    """The same with half the time step; at length 480 both from the same state on."""
-    out, window = [], (37300, HALF_STEP_UNTIL)
-    for name, length, times in (("fault_120_4", "120", (calibrate.LOADING, math.inf)), ("t_120_0_0.015_4", "120", (calibrate.LOADING, math.inf)),
-                                ("fault_480_4", "480", window), ("half_480_4", "480", window)):
-        row, = summary.rows_of(POSTPROC, [DAMPING / f"{name}.catalogue.csv.xz"], ["1e-4"], ["1e-4:1e-1"], (), ("dt",), *times, shortest=0)
+    """The same with half the time step, in the same time; at length 480 both from the same state on."""
+    out, first, second = [], ("120", calibrate.LOADING, 14700), ("480", 37300, HALF_STEP_UNTIL)
+    for name, (length, *times) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("fault_480_4", second), ("half_480_4", second)):
+        row, = in_window(name, *times)
         out.append([
             f"{length}, {float(row['dt']):g}", row["events_0.0001"],
             *(of(row, key) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"))
@@ -531,7 +540,7 @@ def apart_table():
 
 
 def energies_table():
-    keys = {"events": lambda row: row["events"], "one in": "one_in", "exponent": "exponent", "gamma": "gamma"}
+    keys = {"events": lambda row: row["events"], "one in": "one_in", "exponent": "exponent", "gamma of all times": "gamma"}
     names = {"damped": "damped, plates absorb", "hardly": "hardly damped"}
     return study_table("damping/energies.csv", {"fault": lambda row: names[row["run"]], "drops of": lambda row: row["energy"]} | keys)
 
@@ -542,7 +551,7 @@ def surrogates_table():
         "by its spectrum": "by_spectrum"
     }
     rows = [row for folder in (DAMPING, SLIP) for row in read(folder / "surrogates.csv")]
-    return study_table("", columns | {"exponent": "exponent", "gamma": "gamma"}, rows)
+    return study_table("", columns | {"exponent": "exponent", "gamma of all times": "gamma"}, rows)
 
 
 def switched_table():

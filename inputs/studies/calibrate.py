@@ -287,10 +287,11 @@ def numbers_of_point(postproc, folder, memory, work):
     numbers |= {key: told(values, name) for key, name in WORDED.items()}
     numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
     events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
-    events = events[(events["t_start"] >= begin) & (events["size"] >= 1e-3) & (events["size"] < 0.1) & (events["step_end"] <= history.steps[-1])]
-    if len(events) >= 5:
+    events = events[(events["t_start"] >= begin) & (events["size"] >= 1e-4) & (events["step_end"] <= history.steps[-1])]
+    size, of = events["size"], (events["size"] >= 1e-3) & (events["size"] < 0.1)
+    if np.sum(of) >= 5:
         excess, rank, _ = judged(history, events, (begin - history.offset) / history.dt)
-        numbers |= {"excess": f"{np.sum(excess * events['size']) / np.sum(events['size']):.4g}", "rank": f"{np.mean(rank):.4g}"}
+        numbers |= {"excess": f"{np.sum((excess * size)[of]) / np.sum(size[of]):.4g}", "rank": f"{np.mean(rank[of]):.4g}"}
     return numbers
 
 

@@ -194,7 +194,7 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
   };
   ReadEvent event;
   std::vector<ReadEvent> all;
-  const bool all_first = where.needs_friction_rate();
+  const bool all_first = where.needs_friction_between();
   while (reader.next(event)) {
     if (all_first)
       all.push_back(event);
@@ -206,13 +206,16 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
       const double time = one.t_start * unit;
       return !is_before(time, options.from_time) && is_before(time, options.to_time);
     };
-    const auto first = std::find_if(all.begin(), all.end(), within);
-    const auto last = std::find_if(all.rbegin(), all.rend(), within);
-    if (first == all.end() || !(last->t_end > first->t_end))
+    const ReadEvent *before = nullptr;
+    for (const ReadEvent &one : all) {
+      if (!within(one)) continue;
+      if (before) where.add_friction_between(*before, one);
+      before = &one;
+    }
+    if (!where.has_friction_between())
       throw FileError(path +
-                      ": fewer than two events from --from to --to, expected two or more "
+                      ": no time between events from --from to --to, expected two or more apart "
                       "for --where excess");
-    where.set_friction_rate(*first, *last);
     std::for_each(all.begin(), all.end(), take);
   }
   table.skipped_lines = reader.skipped();

@@ -71,8 +71,8 @@ void CatalogueOptions::add_to(CLI::App *command) {
       "Leave out events of a model for which this does not hold: a column, one of < <= > >= = "
       "!= and a number (units of the file), such as 'peak_slip > 0.001', or 'excess > 0.5', drops "
       "of PE that are slip †: excess is what friction takes up within the event, less that in as "
-      "much time on the mean from --from to --to, over its size; may be repeated, and all have to "
-      "hold",
+      "much time between events from --from to --to, over its size; may be repeated, and all have "
+      "to hold",
       one_each(), kind("CONDITION"), shown(""));
   group.add(
       "--format", format,

@@ -55,12 +55,13 @@ EventConditions::EventConditions(const std::vector<std::string> &texts, const Ca
   }
 }
 
-bool EventConditions::needs_friction_rate() const {
+bool EventConditions::needs_friction_between() const {
   return std::any_of(all_.begin(), all_.end(), [](const One &one) { return one.is_excess(); });
 }
 
-void EventConditions::set_friction_rate(const Event &first, const Event &last) {
-  friction_rate_ = (last.friction_total - first.friction_total) / (last.t_end - first.t_end);
+void EventConditions::add_friction_between(const Event &before, const Event &after) {
+  friction_between_ += after.friction_total - after.friction_work - before.friction_total;
+  time_between_ += after.t_start - before.t_end;
 }
 
 double EventConditions::One::of(const Event &event, double friction_rate) const {
@@ -72,7 +73,7 @@ double EventConditions::One::of(const Event &event, double friction_rate) const 
 bool EventConditions::hold(const Event &event) const {
   using Is = EventCondition::Is;
   return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
-    const double value = one.of(event, friction_rate_), number = one.condition.number;
+    const double value = one.of(event, friction_between_ / time_between_), number = one.condition.number;
     switch (one.condition.is) {
       case Is::less:
         return value < number;

@@ -2,9 +2,9 @@
 /// \file event_condition.h
 /// Conditions on the columns of a catalogue, as --where takes them: "peak_slip > 0.001". Where a
 /// catalogue has friction_work and friction_total, `excess` † counts as a column: the work of
-/// friction within the event, less that in as much time on the mean of all events, over the size.
-/// It is 1 if friction takes up what the springs lose, and 0 if it does no more than at any other
-/// time, so that the energy goes to the load of the plates or to waves.
+/// friction within the event, less that in as much time between events, over the size. It is 1 if
+/// friction takes up what the springs lose, and 0 if it does no more than between events, so that
+/// the energy goes to the load of the plates or to waves.
 #ifndef LSM_POSTPROC_EVENT_CONDITION_H
 #define LSM_POSTPROC_EVENT_CONDITION_H
 
@@ -34,10 +34,12 @@ class EventConditions {
   /// \throws FileError if the catalogue does not have one of the columns
   EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
                   const std::string &path);
-  /// Whether one of the conditions needs set_friction_rate().
-  bool needs_friction_rate() const;
-  /// Sets the mean power of friction from that between the ends of the first and the last event.
-  void set_friction_rate(const Event &first, const Event &last);
+  /// Whether one of the conditions needs the power of friction between events.
+  bool needs_friction_between() const;
+  /// Adds what friction does between two events that follow each other.
+  void add_friction_between(const Event &before, const Event &after);
+  /// Whether there is time between the events that were added.
+  bool has_friction_between() const { return time_between_ > 0.0; }
   bool hold(const Event &event) const;
 
  private:
@@ -48,7 +50,7 @@ class EventConditions {
     double of(const Event &event, double friction_rate) const;
   };
   std::vector<One> all_;
-  double friction_rate_ = 0.0;
+  double friction_between_ = 0.0, time_between_ = 0.0;
 };
 
 }  // namespace LSM::postproc

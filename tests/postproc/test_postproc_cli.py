@@ -687,16 +687,16 @@ def test_where(do, no):
     no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where", "select c.csv --where peak_slip>0 -o x.csv")
     for text in "size", "size>", ">1", "size ~ 1", "size>1.2.3", "size >> 1":
         no("--where '.*': expected a column, one of < <= > >= = != and a number", "select", "c.csv", "-o", "x.csv", "--where", text)
-    # Friction takes up 1 in each time unit on the mean from the end of the first event that is read to that of the last, and 1.87 with event 1.
+    # Friction takes up 0.75 in each time unit between the events from 5 on, and 2.16 with event 1.
     events = [(0, 2, 7, 7), (10, 12, 6, 50), (20, 24, 2.5, 62), (30, 40, 15, 78)]  # begin, end, work within it, work until its end
     table = "\n".join(f"{n},{a},{b},{a},{b},1,2,1,{work},{total}" for n, (a, b, work, total) in enumerate(events, 1))
     Path("f.csv").write_text("# lsm-catalogue 1\n# model = lsm\nevent_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,"
                              f"friction_work,friction_total\n{table}\n")
-    for words, expected in (("excess>3.9 --from 5", [2, 4]), ("excess>4.9 --from 5", [4]), ("excess<0 --from 5", [3]), ("excess>0", [1, 2])):
+    for words, expected in (("excess>4.4 --from 5", [2, 4]), ("excess>7.4 --from 5", [4]), ("excess<-0.4 --from 5", [3]), ("excess>2", [1])):
         do(f"select f.csv --overwrite -o part.csv --where {words}")
         assert left("part.csv") == expected, words
         assert "friction_work,friction_total" in Path("part.csv").read_text()
-    no("f.csv: fewer than two events from --from to --to, expected two or more for --where excess",
+    no("f.csv: no time between events from --from to --to, expected two or more apart for --where excess",
        "select f.csv -o x.csv --where excess>0 --from 25")
     no("has no column excess", "select c.csv -o x.csv --where excess>0")
     no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")
