@@ -48,7 +48,7 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [0.0001:10000]
+set yrange [1.0000000000000001e-05:10000]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
@@ -71,7 +71,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (1563 events)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (2933 events)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \

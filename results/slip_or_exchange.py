@@ -184,9 +184,8 @@ set ylabel 'mean time between events >= 0.01'
 set key outside bottom center horizontal maxcols 2 height 1 Left reverse
 set datafile separator comma
 plot """ + ", ".join(f"table u (strcol(1) eq '{name}' ? $2 : NaN):{column} w p lc {colour} pt {point} t '{name}, {what}'"
-                     for name, colour in (("hardly damped", 6), ("preset slip", 2))
-                     for what, column, point in (("all", 7, 6),
-                                                 ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1 / length: independent places'"
+                     for name, colour in (("hardly damped", 6), ("preset slip", 2)) for what, column, point in (
+                         ("all", 7, 6), ("those that are slip", 9, 7))) + ", 18000/x w l dt 2 lc rgb '#888888' t 'as 1 / length: independent places'"
 
 
 def rates(base, *paths):
@@ -377,7 +376,8 @@ def stretch(run, begin, end):
     lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
     kept = catalogue[(catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
     slip = judged(history, kept, history.steps[0])[0] > SLIP
-    spans = [(max(a, begin), min(z, end), s) for a, z, s, size in zip(kept["t_start"], kept["t_end"], slip, kept["size"]) if size >= 1e-3 and z > begin and a < end]
+    spans = [(max(a, begin), min(z, end), s) for a, z, s, size in zip(kept["t_start"], kept["t_end"], slip, kept["size"])
+             if size >= 1e-3 and z > begin and a < end]
     return lines, spans
 
 

@@ -73,7 +73,8 @@ double EventConditions::One::of(const Event &event, double friction_rate) const 
 bool EventConditions::hold(const Event &event) const {
   using Is = EventCondition::Is;
   return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
-    const double value = one.of(event, friction_between_ / time_between_), number = one.condition.number;
+    const double value = one.of(event, friction_between_ / time_between_),
+                 number = one.condition.number;
     switch (one.condition.is) {
       case Is::less:
         return value < number;
