@@ -64,16 +64,16 @@ void EventConditions::add_friction_between(const Event &before, const Event &aft
   time_between_ += after.t_start - before.t_end;
 }
 
-double EventConditions::One::of(const Event &event, double friction_rate) const {
+double EventConditions::One::of(const Event &event, double friction, double time) const {
   if (is_excess())
-    return (event.friction_work - friction_rate * (event.t_end - event.t_start)) / event.size;
+    return (event.friction_work - friction / time * (event.t_end - event.t_start)) / event.size;
   return column.number ? event.*column.number : static_cast<double>(event.*column.integer);
 }
 
 bool EventConditions::hold(const Event &event) const {
   using Is = EventCondition::Is;
   return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
-    const double value = one.of(event, friction_between_ / time_between_),
+    const double value = one.of(event, friction_between_, time_between_),
                  number = one.condition.number;
     switch (one.condition.is) {
       case Is::less:

@@ -47,7 +47,7 @@ class EventConditions {
     EventCondition condition;
     CatalogueColumn column;
     bool is_excess() const { return !column.number && !column.integer; }
-    double of(const Event &event, double friction_rate) const;
+    double of(const Event &event, double friction, double time) const;  ///< between events
   };
   std::vector<One> all_;
   double friction_between_ = 0.0, time_between_ = 0.0;
