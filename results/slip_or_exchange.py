@@ -82,6 +82,11 @@ class History:
         return self.done(end) - self.done(begin)
 
 
+def recorded(catalogue, history, begin):
+    """The events >= 1e-4 from a time on that end within the history, which judged() and gathered() take."""
+    return catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+
+
 def random_starts(history, events, first, seed):
     """Steps at which random stretches begin, STRETCHES for each event, as long, in which no event of its size or more goes on.
 
@@ -144,7 +149,7 @@ def slip_share(excess, chance):
 def events(run, output, begin=LOADING):
     begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
-    kept = catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+    kept = recorded(catalogue, history, begin)
     first = (begin - history.offset) / history.dt
     begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
     numbers = (history.worked(begins, ends), history.done(ends), *judged(history, kept, first)[1:], gathered(history, kept, first))
@@ -374,7 +379,7 @@ def stretch(run, begin, end):
     at = np.arange(begin, end)
     step = (at - history.offset) / history.dt
     lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
-    kept = catalogue[(catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+    kept = recorded(catalogue, history, -np.inf)
     slip = judged(history, kept, history.steps[0])[0] > SLIP
     spans = [(max(a, begin), min(z, end), s) for a, z, s, size in zip(kept["t_start"], kept["t_end"], slip, kept["size"])
              if size >= 1e-3 and z > begin and a < end]

@@ -266,7 +266,7 @@ def loaded(time, pe):
 def numbers_of_point(postproc, folder, memory, work):
     import numpy as np
     import summary
-    from slip_or_exchange import History, judged, lsm
+    from slip_or_exchange import History, judged, lsm, recorded
     from statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
@@ -287,7 +287,7 @@ def numbers_of_point(postproc, folder, memory, work):
     numbers |= {key: told(values, name) for key, name in WORDED.items()}
     numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
     events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
-    events = events[(events["t_start"] >= begin) & (events["size"] >= 1e-4) & (events["step_end"] <= history.steps[-1])]
+    events = recorded(events, history, begin)
     size, of = events["size"], (events["size"] >= 1e-3) & (events["size"] < 0.1)
     if np.sum(of) >= 5:
         excess, rank, _ = judged(history, events, (begin - history.offset) / history.dt)
