@@ -3,6 +3,7 @@
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
 slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the work of friction and what is below
+slip_or_exchange.py jumps FILE.csv.xz SERIES.pe.bin...   adds the column jump to such files, from the series of their runs
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -24,6 +25,8 @@ For each event:
   chance   share of these stretches whose excess, over the size of the event, is above 0.5
   together share of random stretches of whose slip half lies in a longer part of the fault than of that of the event. 0.5: its slip is
            scattered like that of any other time
+  jump     share of the size by which PE falls in one step, if this fall is more than ten times the median change around it, else 0:
+           a contact whose friction falls from static to dynamic lets its spring go at once
 The stretches are as long as the event, and no event of its size or more goes on in them.
 An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
 long fault slips nearly always: shares and rates of slip leave these out.
@@ -111,7 +114,7 @@ def random_starts(history, events, first, seed):
 def judged(history, events, first):
     """Excess, rank and chance of all events of a run, in order, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
-    work = history.worked(begin, end)
+    work = events["friction_work"] if "friction_work" in events.dtype.names else history.worked(begin, end)  # step by step, if it was recorded
     rate = (history.worked(first, history.steps[-1]) - np.sum(work)) / (history.steps[-1] - first - np.sum(end - begin))
 
     def excess(work):
@@ -125,11 +128,14 @@ def judged(history, events, first):
 
 
 def excess_of(events):
-    """Excess of the events of a catalogue, by their work of friction."""
+    """Excess of the events of a catalogue, by their work of friction, and what their springs are loaded with meanwhile.
+
+    On the mean of all time friction takes up what the plates put in, between events less: by the difference PE rises.
+    """
     work, lasting = events["friction_work"], events["t_end"] - events["t_start"]
-    between = events["friction_total"][-1] - events["friction_total"][0] - np.sum(work[1:])
-    rate = between / (events["t_end"][-1] - events["t_end"][0] - np.sum(lasting[1:]))
-    return np.asarray((work - rate * lasting) / events["size"])
+    total, time = events["friction_total"][-1] - events["friction_total"][0], events["t_end"][-1] - events["t_end"][0]
+    between = (total - np.sum(work[1:])) / (time - np.sum(lasting[1:]))
+    return np.asarray((work - between * lasting) / events["size"]), np.asarray((total / time - between) * lasting)
 
 
 def gathered(history, events, first):
@@ -146,27 +152,58 @@ def slip_share(excess, chance):
     return (np.mean(excess > SLIP) - np.mean(chance)) / (1 - np.mean(chance))
 
 
+AROUND = 30  # steps before and after a fall of PE
+
+
+def jumps(pe, steps, events):
+    """Share of the size of each event that is lost in one step, if PE jumps there; PE at consecutive steps."""
+    falls, shares = -np.diff(pe), []
+    for first, last, size in zip(np.searchsorted(steps, events["step_start"]), np.searchsorted(steps, events["step_end"]), events["size"]):
+        at = first + int(np.argmax(falls[first:last]))
+        around = np.median(np.abs(falls[max(0, at - AROUND):at + AROUND]))
+        shares.append(falls[at] / size if falls[at] > 10 * around else 0.0)
+    return np.array(shares)
+
+
+def write_events(path, comments, events, columns):
+    """Events with further columns, {name: numbers}."""
+    with lzma.open(path, "wt") as file:
+        file.write("".join(comments) + ",".join([*events.dtype.names, *columns]) + "\n")
+        for event, *of in zip(events, *columns.values()):
+            file.write(",".join([*(text_of(event[name]) for name in events.dtype.names), *(f"{number:.9g}" for number in of)]) + "\n")
+
+
+def add_jumps(*paths):
+    for path, series in zip(paths[::2], map(lsm.read_series, paths[1::2])):
+        with lzma.open(path, "rt") as file:
+            comments = [line for line in file if line.startswith("#")]
+        found = lsm.read_catalogue(path)
+        write_events(path, comments, found[[name for name in found.dtype.names if name != "jump"]],
+                     {"jump": jumps(np.asarray(series["pe"]), np.asarray(series["step"]), found)})
+
+
 def events(run, output, begin=LOADING):
     begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = recorded(catalogue, history, begin)
     first = (begin - history.offset) / history.dt
     begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
-    numbers = (history.worked(begins, ends), history.done(ends), *judged(history, kept, first)[1:], gathered(history, kept, first))
-    names = [name for name in kept.dtype.names if not name.startswith("friction_")]
-    with lzma.open(output, "wt") as file:
-        file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together: results/slip_or_exchange.py\n")
-        file.write(f"{','.join(names)},friction_work,friction_total,rank,chance,together\n")
-        for event, *of in zip(kept, *numbers):
-            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.9g}" for number in of)]) + "\n")
+    excess, *stretches = judged(history, kept, first)
+    columns = {} if "friction_work" in kept.dtype.names else {"friction_work": history.worked(begins, ends), "friction_total": history.done(ends)}
+    columns |= dict(zip(("rank", "chance"), stretches)) | {"together": gathered(history, kept, first)}
+    if Path(f"{run}.pe.bin").exists():
+        series = lsm.read_series(f"{run}.pe.bin")
+        columns["jump"] = jumps(np.asarray(series["pe"]), np.asarray(series["step"]), kept)
+    comments = ["# lsm-catalogue 1\n"] + [f"# {key} = {value}\n" for key, value in catalogue.header.items()]
+    comments.append(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together, jump: results/slip_or_exchange.py\n")
+    write_events(output, comments, kept, columns)
 
 
 def kinds(output, *paths):
     rows = []
     for path in paths:
         found = lsm.read_catalogue(path)
-        every = excess_of(found)
+        every, loaded = excess_of(found)
         for low, high in DECADES:
             within = (found["size"] >= low) & (found["size"] < high)
             of, excess = found[within], every[within]
@@ -174,9 +211,13 @@ def kinds(output, *paths):
                 size = of["size"]
                 rows.append(
                     dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
-                         events=len(of), excess=np.sum(excess * size) / np.sum(size), excess_median=np.median(excess), rank=np.mean(of["rank"]),
-                         together=np.mean(of["together"]), chance=np.mean(of["chance"]), slip=slip_share(excess, of["chance"])))
-    write_table(output, ["Events by size; excess: of their sum; slip: share that is slip, beyond chance (slip_or_exchange.py kinds)"], rows)
+                         events=len(of), excess=np.sum(excess * size) / np.sum(size), friction=np.sum(excess * size) / np.sum(size + loaded[within]),
+                         rank=np.mean(of["rank"]), together=np.mean(of["together"]), chance=np.mean(of["chance"]),
+                         slip=slip_share(excess, of["chance"]), jump=np.mean(of["jump"] > 0.5) if "jump" in of.dtype.names else np.nan))
+    write_table(output, [
+        "Events by size; excess: of their sum; friction: its share of what their springs lose, with what these are loaded with meanwhile;",
+        "slip: share that is slip, beyond chance; jump: share more than half of which falls in one step (slip_or_exchange.py kinds)"
+    ], rows)
 
 
 FAULTS = {"damping": "hardly damped", "slip": "preset slip"}
@@ -198,7 +239,7 @@ def rates(base, *paths):
     rows = []
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
-        excess = excess_of(found)
+        excess, _ = excess_of(found)
         width, begin = float(found.header["width"]), found["t_start"].min()
         wide = "" if width == 30 else f" (width {width:g})"
         row = dict(fault=FAULTS[path.resolve().parent.name] + wide, length=f"{float(found.header['length']):g}", seed=found.header["seed"])
@@ -447,8 +488,8 @@ def quality(output, *runs):
 
 
 if __name__ == "__main__":
-    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates, surrogates=surrogates,
-                    energies=energies, switched=switched, figure=figure)
+    commands = dict(jumps=add_jumps, quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates,
+                    surrogates=surrogates, energies=energies, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

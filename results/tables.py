@@ -154,22 +154,51 @@ def judged(rows, statement):
     return spread(values) if met else f"**{spread(values)}**"
 
 
+def tolerance_of(statement):
+    return f"{statement.tolerance:.2g}{' of ln' if statement.log else ''}"
+
+
+def slip_shares():
+    """Share of the events of 0.001 to 0.1 that are slip, beyond chance: {(preset, length, packing): (events, share)}."""
+    found = {}
+    for folder, preset in (DAMPING, "preset paper"), (SLIP, "preset slip"):
+        for row in read(folder / "kinds.csv"):
+            if float(row["smallest"]) in (0.001, 0.01):
+                name = "default" if row["run"].startswith("damped") else "" if row["run"].startswith("wide") else preset
+                found.setdefault((name, row["length"], row["seed"]), []).append((float(row["events"]), float(row["slip"])))
+    return {key: (sum(n for n, _ in some), sum(n * x for n, x in some) / sum(n for n, _ in some)) for key, some in found.items()}
+
+
 def paper_table():
     """Each statement for the three faults."""
-    groups, slip = {}, {}
+    groups, slip = {}, slip_shares()
     for name, folder, lengths in (("default", CAMPAIGN, ("120",)), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", "480"))):
         rows = grouped(of_all_times(folder), lambda row: row["length"])
         groups |= {f"{name}, {length}": rows[length] for length in lengths}
-    for folder, preset in ((DAMPING, "preset paper"), (SLIP, "preset slip")):
-        for row in read(folder / "kinds.csv"):
-            if float(row["smallest"]) in (0.001, 0.01):
-                name = f"{'default' if row['run'].startswith('damped') else preset}, {row['length']}"
-                slip.setdefault(name, []).append((float(row["events"]), float(row["slip"])))
-    shares = {name: sum(n * x for n, x in some) / sum(n for n, _ in some) for name, some in slip.items()}
-    out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *(shown(shares.get(name)) for name in groups)]]
-    out += [[one.text, *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
-    return table(["statement of the paper, or †", *groups],
+    shares = [spread([share for key, (_, share) in slip.items() if ", ".join(key[:2]) == name]) for name in groups]
+    out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *shares]]
+    out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
+    return table(["statement of the paper, or † (tolerance)", *groups],
                  [row for row in out if set(row[1:]) != {"-"}] + [["packings", *(str(len(rows)) for rows in groups.values())]])
+
+
+def agreement_table():
+    """The README's: the printed numbers in three faults, means of the packings."""
+    slip, out = slip_shares(), {}
+    for name, folder, lengths in (("hardly damped (`preset paper`)", DAMPING, (120, 240, 480, 945, 1890)),
+                                  ("slipping (`preset slip`)", SLIP, (120, 240, 480, 945, 1890)), ("radiating (default)", CAMPAIGN, (120, 1890))):
+        rows, preset = grouped(of_all_times(folder), lambda row: int(row["length"])), name.split("(")[1].strip("`)")
+        shares = [[share for key, (_, share) in slip.items() if key[:2] == (preset, str(length))] for length in lengths]
+        shares = [f"{100 * statistics.mean(some):.0f}" for some in shares if some]
+        out[f"{name}: {', '.join(map(str, lengths))}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
+            ", ".join(shown(statistics.mean(number(row, key) for row in rows[length])) for length in lengths)
+            for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
+        ]
+    lines = zip([
+        "events of 0.001 to 0.1 that are slip, beyond chance †", "sizes, exponent over three decades", "times between events, gamma",
+        "their scale B (the paper has one for all lengths)"
+    ], ["-", "1.07", "0.995", "15.2"], *out.values())
+    return table(["", "paper", *out], [list(line) for line in lines])
 
 
 @functools.cache
@@ -506,21 +535,27 @@ def crossing_table():
     return table(["fault, length, packing", "events", "one of 0.01 or more in", "share that begins within a crossing after one", "by chance"], out)
 
 
-def kinds_table():
-    """Events by size: frictional work and slip within them."""
+def of_kinds(text, chosen=lambda row: True):
+    """Events by size, a column for each decade."""
     groups = {}
     for folder, names in (DAMPING, {"damped": "damped, plates absorb", "fault": "hardly damped"}), (SLIP, {"fault": "`preset slip`"}):
-        groups |= grouped(read(folder / "kinds.csv"), lambda row, names=names: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
-    cells = {
-        name: {
-            float(row["smallest"]):
-            f"{', '.join(f'{number(row, key):.2f}' for key in ('excess', 'rank', 'together'))}, {round(100 * number(row, 'slip'))} ({row['events']})"
-            for row in rows
-        }
-        for name, rows in groups.items()
-    }
-    return table(["excess, rank, together, slip in % (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
-                 [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))] for name, found in cells.items()])
+        groups |= grouped(filter(chosen, read(folder / "kinds.csv")),
+                          lambda row, names=names: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
+    cells = {name: {float(row["smallest"]): text(row) for row in rows} for name, rows in groups.items()}
+    return table(["fault, length, packing", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
+                 [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))]
+                  for name, found in sorted(cells.items(), key=lambda one: (one[0].split(",")[0], *map(int, one[0].split(",")[-2:])))])
+
+
+def kinds_table():
+    """Share of the events that are slip, and number of events."""
+    return of_kinds(lambda row: f"{round(100 * number(row, 'slip'))} ({row['events']})")
+
+
+def ranks_table():
+    """What friction does in the events, how far the place slips that slips farthest, and whether the slip lies together."""
+    return of_kinds(lambda row: ", ".join(f"{number(row, key):.2f}" for key in ("excess", "rank", "together")),
+                    lambda row: row["run"].startswith("damped") or row["seed"] == "4" and row["length"] in ("120", "480", "1890"))
 
 
 def apart_table():
@@ -573,10 +608,8 @@ def statements_table():
     def points(one):
         return len({row["point"] for row in rows if one.deviation(row) <= 1})
 
-    out = [[
-        one.text, f"{one.tolerance:.2g}{' (ln)' if one.log else ''}",
-        str(points(one)), *(shares(found[one.name], length) for length in ("120", "480"))
-    ] for one in calibrate.STATEMENTS]
+    out = [[one.text, tolerance_of(one),
+            str(points(one)), *(shares(found[one.name], length) for length in ("120", "480"))] for one in calibrate.STATEMENTS]
     head = ["fitted, but for †", "tolerance", f"of {len({row['point'] for row in rows})} points", "% of prior, posterior at 120", "at 480"]
     stopped = sum(row["stopped"] == "yes" for row in read(POINTS))
     return table(head, out) + (f"\n\nMore that stopped, as a link was strained by half its length: {stopped}." if stopped else "")
@@ -619,26 +652,11 @@ def scale_and_time(row):
     return f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"
 
 
-def slip_lengths_table():
-    """Two faults whose events are slip, at all lengths and packings that were run, memory 1."""
-    names, out = {"s006": "viscosity 0.023", "s083": "retardation 0.005"}, []
-    rows = [row for row in calibrate.completed(POINTS) if row["point"][:4] in names and row["memory"] == "1"]
-    for row in sorted(rows, key=lambda row: (row["point"][:4], float(row["length"]), row["seed"], -float(row["dt"]))):
-        step = "" if row["dt"] == "0.12" else f", step {row['dt']}"
-        out.append([
-            f"{names[row['point'][:4]]}: {row['length']}, {row['seed']}{step}",
-            f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
-            shown(number(row, "gamma_0.0001")),
-            scale_and_time(row), f"{shown(number(row, 'excess'))}, {shown(number(row, 'rank'))}"
-        ])
-    return table(["damping: length, packing", "exponent (in each decade)", "gamma of all times", "B, one event in", "excess, rank †"], out)
-
-
-LEADS = {"s003": "1", "p284": "0.7", "s150": "1", "s155": "1"}  # and the memory at which each is nearest to what is printed
+LEADS = {"s003": "1", "p284": "0.7", "s150": "1"}  # and the memory at which each is nearest to what is printed
 
 
 def leads_table():
-    """Sets of values that have slip and nearly all that is printed, with a time step of 0.03 and true masses."""
+    """Other sets of values that have slip and some of what is printed, with a time step of 0.03 and true masses."""
     rows = [row for row in calibrate.completed(POINTS) if row["dt"] == "0.03" and row["memory"] == LEADS.get(row["point"][:4])]
     rows.sort(key=lambda row: (list(LEADS).index(row["point"][:4]), int(row["length"]), row["seed"]))
     columns = {"point, length, packing": lambda row: f"{row['point'][:4]}, {row['length']}, {row['seed']}"}
@@ -647,21 +665,18 @@ def leads_table():
 
 
 def around_table():
-    """One value of s013 changed at a time, packing 1, memory 1: which of them ties the rate to the length?"""
-    keys, rows = ("stress", "viscosity", "kt", "mus", "retardation"), {}
-    alike = {"memory": "1", "seed": "1", "dt": "0.12", "hold": "position"}
+    """One value of preset slip changed at a time, packing 1, time step 0.12, memory 1."""
+    keys, rows = ("stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "loose", "seeds", "contacts", "mass"), {}
     for row in calibrate.completed(POINTS):
-        if row["point"][0] == "s" and all(row[key] == value for key, value in alike.items()):
+        if row["point"][0] == "s" and (row["memory"], row["seed"], row["dt"]) == ("1", "1", "0.12"):
             rows.setdefault(row["point"][:4], {})[row["length"]] = row
-    base, out = rows["s013"]["120"], []
+    base, out = rows["s156"]["120"], []
     for name, found in rows.items():
-        if not {"120", "480"} <= set(found):
-            continue
-        changed = [key for key in keys if found["120"][key] != base[key]]
-        if name == "s013" or len(changed) == 1:
+        changed = [key for key in keys if found.get("120", base)[key] != base[key]]
+        if {"120", "480"} <= set(found) and len(changed) <= 1:
             both = [[shown(number(found[length], key)) for length in ("120", "480")]
                     for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "mean_time_0.0001", "B_0.0001", "excess")]
-            out.append([", ".join(f"{key} {found['120'][key]}" for key in changed) or "none (s013)", *(", ".join(cells) for cells in both)])
+            out.append([", ".join(f"{key} {found['120'][key]}" for key in changed) or "none", *(", ".join(cells) for cells in both)])
     return table(["changed", *(f"{what} at 120, 480" for what in ("exponent", "gamma", "one event in", "B", "excess †"))], sorted(out))
 
 

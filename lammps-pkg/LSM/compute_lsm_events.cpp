@@ -274,14 +274,16 @@ double ComputeLSMEvents::time_of(bigint step) const
 void ComputeLSMEvents::record()
 {
   const bigint step = update->ntimestep;
+  double friction = 0.0;
   if (settings.records_slip() && step != fault.grid().step0) {
-    for (const auto *style : sources.styles()) fault.add(style->contacts);
+    for (const auto *style : sources.styles()) friction += fault.add(style->contacts);
     if (fault.grid().ends_interval(step)) {
       add_faces();
       sampler.add_interval(fault.sums());
       fault.clear();
     }
   }
+  if (settings.finds_ruptures()) sampler.add_friction(friction);
   sampler.add(step, sources.pe());
   last_recorded = step;
   if (sampler.full()) start_gather();

@@ -42,7 +42,7 @@ def test_excess_rank_and_chance(script, postproc, work):
         run(script, "events", name, f"{name}.events.csv.xz")
         _, found = read_catalogue(f"{name}.events.csv.xz")
         assert len(found["size"]) == cycles
-        np.testing.assert_allclose(slip_or_exchange.excess_of(found), excess, atol=2e-4)
+        np.testing.assert_allclose(slip_or_exchange.excess_of(found)[0], excess, atol=2e-4)
         run(postproc, "select", f"{name}.events.csv.xz", "--where", "excess>0.5", "-o", f"{name}.slip.csv")
         assert len(read_catalogue(f"{name}.slip.csv")[1]["size"]) == (cycles if name == "run" else 0)
         rank = np.mean(found["rank"])
@@ -96,6 +96,27 @@ def test_as_many_as_by_chance_are_no_slip():
     chance = np.full(1000, 0.3)
     assert slip_or_exchange.slip_share(excess, chance) == pytest.approx(0.5)
     assert slip_or_exchange.slip_share(excess[500:], chance[500:]) == pytest.approx(0.0)
+
+
+def test_a_spring_that_lets_go_is_a_jump():
+    """PE oscillates smoothly; one event is half of an oscillation, the other is almost all one step."""
+    steps = np.arange(1001)
+    pe = 0.01 * np.cos(2 * np.pi * steps / 200)
+    pe[651:] -= 0.005
+    events = np.array([(100 * n, 100 * n + 100, pe[100 * n] - pe[100 * n + 100]) for n in (0, 2, 6)] + [(650, 651, pe[650] - pe[651])],
+                      [("step_start", float), ("step_end", float), ("size", float)])
+    found = slip_or_exchange.jumps(pe, steps, events)
+    assert list(found[:2]) == [0, 0] and 0.2 < found[2] < 0.25 and found[3] == pytest.approx(1.0), found
+
+
+def test_springs_are_loaded_while_they_slip():
+    """Plates put in 0.01 a time; friction takes that up in events of 2 in each 10, which it leaves with nothing but these."""
+    t = 10.0 * np.arange(1, 101)
+    kinds = [("t_start", float), ("t_end", float), ("size", float), ("friction_work", float), ("friction_total", float)]
+    found = np.array([(a, a + 2, 0.08, 0.1, 0.1 * n) for n, a in enumerate(t)], kinds)
+    excess, loaded = slip_or_exchange.excess_of(found)
+    np.testing.assert_allclose(excess, 1.25)
+    np.testing.assert_allclose(excess * found["size"] / (found["size"] + loaded), 1.0)
 
 
 def test_random_phases_keep_the_spectrum():

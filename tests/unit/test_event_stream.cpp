@@ -32,6 +32,9 @@ double pe_at(std::int64_t step) {
          (phase < 30 ? 0.1 * phase : 3.0 - 0.3 * (phase - 30));
 }
 bool slides(std::int64_t step) { return step % 40 >= 30; }
+double friction_at(std::int64_t step) {
+  return slides(step) ? 0.25 * static_cast<double>(step % 40) : 0.0625;
+}
 
 struct MadeUpRun {
   EventSettings settings;
@@ -101,6 +104,7 @@ struct MadeUpRun {
         block.pe[static_cast<std::size_t>(n)] = part;
         block.pe[static_cast<std::size_t>(block.count + n)] = pe_at(step) - part;
         if (step > 0 && settings.records_slip()) add_contacts(step);
+        if (settings.finds_ruptures()) block.friction.push_back(step > 0 ? friction_at(step) : 0.0);
         if (!settings.records_slip() || !grid.ends_interval(step)) continue;
         block.intervals.insert(block.intervals.end(), sums.begin(), sums.end());
         std::fill(sums.begin(), sums.end(), 0.0);
@@ -215,6 +219,25 @@ TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
     EXPECT_GE(event.rupture_length, 2.0);
     EXPECT_GT(event.x_centroid, 3.5);
     EXPECT_LT(event.x_centroid, static_cast<double>(6 + event.step_start / 40));
+  }
+}
+
+// Not a share of the intervals of four steps in which a drop begins and ends: slips are shorter.
+TEST_F(EventStreamFiles, FrictionOfADropIsThatOfItsSteps) {
+  const EventSettings settings = rupture_settings("a");
+  MadeUpRun run(settings);
+  run.begin();
+  run.run(0, 500, 33);
+  const auto drops = events_of(settings);
+  ASSERT_GE(drops.size(), 10u);
+  for (const LSM::Event &drop : drops) {
+    double within = 0.0, total = 0.0;
+    for (std::int64_t step = 1; step <= drop.step_end; ++step) {
+      total += friction_at(step);
+      if (step > drop.step_start) within += friction_at(step);
+    }
+    EXPECT_EQ(drop.friction_work, within);
+    EXPECT_EQ(drop.friction_total, total);
   }
 }
 

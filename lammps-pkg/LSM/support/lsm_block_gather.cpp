@@ -26,11 +26,16 @@ void LSMBlockGather::start(const LSM::SampleBlock &mine)
               world_, &request_);
   pending_ = true;
 
+  const auto sum = [this](const std::vector<double> &of, std::vector<double> &all) {
+    all.resize(me_ == 0 ? of.size() : 0);
+    if (!of.empty())
+      MPI_Reduce(of.data(), all.data(), static_cast<int>(of.size()), MPI_DOUBLE, MPI_SUM, 0,
+                 world_);
+  };
+  sum(mine.friction, block_.friction);
+
   // the intervals end at the same steps on all ranks
-  block_.intervals.resize(me_ == 0 ? mine.intervals.size() : 0);
-  if (!mine.intervals.empty())
-    MPI_Reduce(mine.intervals.data(), block_.intervals.data(),
-               static_cast<int>(mine.intervals.size()), MPI_DOUBLE, MPI_SUM, 0, world_);
+  sum(mine.intervals, block_.intervals);
 }
 
 bool LSMBlockGather::finish()

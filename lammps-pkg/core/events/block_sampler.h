@@ -19,11 +19,13 @@ struct SampleBlock {
   std::int64_t first = 0;         ///< step of the first sample
   int count = 0;                  ///< number of samples
   std::vector<double> pe;         ///< of each step
+  std::vector<double> friction;   ///< work that it took up in each step; empty if not recorded
   std::vector<double> intervals;  ///< SlipRecorder::sums() of the intervals that ended in the block
 
   void clear() {
     count = 0;
     pe.clear();
+    friction.clear();
     intervals.clear();
   }
 };
@@ -43,6 +45,8 @@ class BlockSampler {
   void add_interval(const std::vector<double> &sums) {
     filling_.intervals.insert(filling_.intervals.end(), sums.begin(), sums.end());
   }
+  /// Adds the work of friction in the step whose PE is added next.
+  void add_friction(double work) { filling_.friction.push_back(work); }
   void add(std::int64_t step, double pe) {
     if (filling_.count == 0) filling_.first = step;
     filling_.pe.push_back(pe);
@@ -69,6 +73,7 @@ struct GatheredBlock {
   std::int64_t first = 0;
   int count = 0, ranks = 1;
   std::vector<double> pe;         ///< count samples of each rank, one rank after the other
+  std::vector<double> friction;   ///< sums over the ranks; empty if not recorded
   std::vector<double> intervals;  ///< sums over the ranks
 
   /// PE of all ranks.

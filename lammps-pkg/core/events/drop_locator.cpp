@@ -3,21 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "files/state.h"
 
 namespace LSM {
-
-namespace {
-
-double work_of(const FaultRow &row) {
-  return std::accumulate(row.work.begin(), row.work.end(), 0.0);
-}
-
-}  // namespace
 
 DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
     : grid_(grid),
@@ -30,7 +21,6 @@ DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
 void DropLocator::add(const Event &drop, const Report &report) {
   waiting_.push_back({drop, open_});
   forget_open();
-  waiting_.back().event.friction_total = work_;
   if (drop.step_end > end_) return;
   report(located(waiting_.back()));
   waiting_.pop_back();
@@ -41,13 +31,11 @@ void DropLocator::add_interval(std::int64_t step, const FaultRow &row,
   finish(step, row, report);
   if (begun) add_part(open_, *begun, step, step, row);
   end_ = step;
-  work_ += work_of(row);
 }
 
 void DropLocator::finish(std::int64_t step, const FaultRow &row, const Report &report) {
   for (Drop &drop : waiting_) {
     add_part(drop.sum, drop.event.step_start, drop.event.step_end, step, row);
-    drop.event.friction_total = work_ + part_of(end_, drop.event.step_end, step) * work_of(row);
     report(located(drop));
   }
   waiting_.clear();
@@ -64,7 +52,6 @@ void DropLocator::add_part(Sum &sum, std::int64_t from, std::int64_t to, std::in
   if (part == 0.0) return;
   for (std::size_t b = 0; b < sum.slip.size(); ++b)
     sum.slip[b] += part * static_cast<double>(row.slip[b]);
-  sum.work += part * work_of(row);
 }
 
 Event DropLocator::located(const Drop &drop) const {
@@ -84,7 +71,6 @@ Event DropLocator::located(const Drop &drop) const {
   e.x_centroid = centroid_.of(cosines, sines);
   e.rupture_length = static_cast<double>(ruptured) * grid_.width;
   e.peak_slip = largest;
-  e.friction_work = drop.sum.work;
   return e;
 }
 

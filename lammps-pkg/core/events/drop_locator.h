@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/drop_locator.h
-/// How far a fault along a line slipped during drops of PE, where, and what friction took up † (the
-/// paper does not locate events).
+/// How far a fault along a line slipped during drops of PE, and where † (the paper does not locate
+/// events).
 #ifndef LSM_DROP_LOCATOR_H
 #define LSM_DROP_LOCATOR_H
 
@@ -17,8 +17,7 @@ namespace LSM {
 
 /// Slip of each bin from the begin to the end of a drop: the displacement of its faces, which is
 /// interpolated linearly within the interval in which the drop begins, and in that in which it
-/// ends, as is the work of friction. Those of drops and of the times between them hence add up to
-/// the slip history.
+/// ends. Those of drops and of the times between them hence add up to the slip history.
 ///
 /// The end of a drop lies within an interval, so that it is reported when that interval is
 /// complete.
@@ -55,11 +54,9 @@ class DropLocator {
   struct Sum {
     explicit Sum(int bins = 0) : slip(static_cast<std::size_t>(bins), 0.0) {}
     std::vector<double> slip;  // of each bin
-    double work = 0.0;         // of friction, on the whole fault
     template <class Self, class State>
     static void visit(Self &self, State &state) {
       state.list(self.slip);
-      state(self.work);
     }
   };
   struct Drop {
@@ -69,12 +66,13 @@ class DropLocator {
     static void visit(Self &self, State &state) {
       auto &e = self.event;
       state(e.id, e.t_start, e.t_end, e.step_start, e.step_end, e.size, e.pe_start, e.pe_end);
+      state(e.friction_work, e.friction_total);
       Sum::visit(self.sum, state);
     }
   };
   template <class Self, class State>
   static void visit(Self &self, State &state) {
-    state(self.end_, self.work_);
+    state(self.end_);
     Sum::visit(self.open_, state);
     state.list(self.waiting_);
   }
@@ -89,9 +87,8 @@ class DropLocator {
   FaultGrid grid_;
   MeanPlace centroid_;
   double modulus_, fraction_;
-  std::int64_t end_;   // of the last complete interval
-  double work_ = 0.0;  // of friction until then
-  Sum open_;           // of the open drop until then
+  std::int64_t end_;  // of the last complete interval
+  Sum open_;          // of the open drop until then
   std::vector<Drop> waiting_;
 };
 

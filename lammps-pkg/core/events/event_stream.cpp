@@ -42,6 +42,7 @@ void EventStream::set_grid(const FaultGrid &grid) {
   grid_ = grid;
   if (!grid.plane) locator_.emplace(grid, settings_.modulus, settings_.fraction);
   if (settings_.finds_ruptures()) finder_.emplace(grid, settings_.rupture_settings(grid.dt));
+  friction_ = {};
   slip_continues_ = false;
 }
 
@@ -52,6 +53,7 @@ void EventStream::set_state(const SavedStream &saved) {
   if (!records_slip() || !saved.continues_with(grid_, finder_.has_value())) return;
   if (locator_) locator_->set_state(saved.locator);
   if (finder_) finder_->set_state(saved.finder);
+  friction_ = saved.friction;
   saved_history_ = saved.history;
   slip_continues_ = true;
 }
@@ -62,6 +64,7 @@ std::vector<double> EventStream::state(const std::vector<double> &open_sums) con
   now.drops = drops();
   now.ruptures = ruptures();
   now.grid = grid_;
+  now.friction = friction_;
   now.open_sums = open_sums;
   if (locator_) now.locator = locator_->state();
   if (finder_) now.finder = finder_->state();
@@ -92,7 +95,8 @@ void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_o
   for (int n = 0; n < block.count; ++n) {
     const std::int64_t step = block.first + n;
     const double time = time_of(step), pe = block.total(n);
-    add_sample(step, time, pe);
+    add_sample(step, time, pe,
+               block.friction.empty() ? 0.0 : block.friction[static_cast<std::size_t>(n)]);
     if (!records_slip() || !grid_.ends_interval(step)) continue;
     add_interval(step, time, pe, sums);
     sums += grid_.fields() * static_cast<std::size_t>(grid_.cells());
@@ -189,7 +193,7 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   }
 }
 
-void EventStream::add_sample(std::int64_t step, double time, double pe) {
+void EventStream::add_sample(std::int64_t step, double time, double pe, double friction) {
   if (!std::isfinite(pe)) {
     series_.flush();
     throw EventStreamError("Potential energy is not finite at step " + std::to_string(step) +
@@ -197,8 +201,15 @@ void EventStream::add_sample(std::int64_t step, double time, double pe) {
                            "time step or start from an earlier restart");
   }
   if (series_.is_open() && step % settings_.series_stride == 0) series_.write(step, time, pe);
+  // A drop begins and ends at the sample before the one that shows it.
+  const double until_now = friction_.total.value();
+  friction_.total.add(friction);
   Event drop;
-  if (!picker_.push(step, time, pe, drop)) return;
+  const bool open = picker_.in_event(), ended = picker_.push(step, time, pe, drop);
+  if (!open) friction_.at_start = until_now;
+  if (!ended) return;
+  drop.friction_work = until_now - friction_.at_start;
+  drop.friction_total = until_now;
   if (!drops_.passes(drop)) {
     if (locator_) locator_->forget_open();
     return;

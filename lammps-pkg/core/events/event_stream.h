@@ -21,6 +21,7 @@
 #include "events/ruptures.h"
 #include "files/output_claim.h"
 #include "files/state.h"
+#include "numerics/sum.h"
 
 namespace LSM {
 
@@ -30,11 +31,23 @@ class EventStreamError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What friction takes up on the whole fault, step by step.
+struct FrictionWork {
+  NeumaierSum total;      ///< until the last sample
+  double at_start = 0.0;  ///< until the open drop began
+
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.total, self.at_start);
+  }
+};
+
 /// State of a stream in a restart file, read from the numbers of EventStream::state().
 struct SavedStream {
   PickerState picker;
   FilterCounts drops, ruptures;
   FaultGrid grid;                 ///< only step0, interval, bins, time0 and dt
+  FrictionWork friction;          ///< since the first interval
   std::vector<double> open_sums;  ///< of the interval that was not complete
   std::vector<double> locator;    ///< DropLocator::state(), empty if drops were not located
   std::vector<double> finder;     ///< RuptureFinder::state(), empty if there was none
@@ -46,6 +59,7 @@ struct SavedStream {
     state.raw(self.picker);
     state(self.drops, self.ruptures);
     state(grid.step0, grid.time0, grid.dt, grid.interval, grid.bins);
+    state(self.friction);
     state.list(self.open_sums);
     state.list(self.locator);
     state.list(self.finder);
@@ -125,7 +139,7 @@ class EventStream {
 
   void open_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                   const StepClock &clock);
-  void add_sample(std::int64_t step, double time, double pe);
+  void add_sample(std::int64_t step, double time, double pe, double friction);
   void add_interval(std::int64_t step, double time, double pe, const double *sums);
 
   void write_drop(const Event &drop);
@@ -137,7 +151,8 @@ class EventStream {
   FaultGrid grid_;                       // if slip is recorded
   std::optional<DropLocator> locator_;   // the same, along a line
   std::optional<RuptureFinder> finder_;  // if ruptures or slip history are recorded
-  bool slip_continues_ = false;          // with the state of a restart file
+  FrictionWork friction_;
+  bool slip_continues_ = false;  // with the state of a restart file
   std::vector<double> saved_history_;
   std::int64_t last_step_ = 0;     // of the last run
   std::vector<double> last_sums_;  // of the incomplete interval at its end

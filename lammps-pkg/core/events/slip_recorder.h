@@ -55,13 +55,17 @@ class SlipRecorder {
   void add_forces(const std::vector<FaultContact> &contacts) {
     for (const FaultContact &c : contacts) add_force(at(c.x, c.z), c);
   }
-  /// Contacts of a step.
-  void add(const std::vector<FaultContact> &contacts) {
+  /// Adds contacts of a step. Returns what they lost to friction.
+  double add(const std::vector<FaultContact> &contacts) {
+    double lost = 0.0;
     for (const FaultContact &c : contacts) {
       double *const sums = at(c.x, c.z);
-      sums[WORK] += c.share * c.work;
+      const double work = c.share * c.work;
+      sums[WORK] += work;
+      lost += work;
       add_force(sums, c);
     }
+    return lost;
   }
   void add(const std::vector<FaceDisplacement> &faces) {
     for (const FaceDisplacement &f : faces) {

@@ -43,6 +43,11 @@ class NeumaierSum {
   double sum() const { return sum_; }                    ///< uncompensated part, for restarts
   double compensation() const { return compensation_; }  ///< compensation, for restarts
 
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.sum_, self.compensation_);
+  }
+
  private:
   double sum_ = 0.0;
   double compensation_ = 0.0;
