@@ -45,7 +45,7 @@ from catalogues import LOADING, draw, lsm, rows_of, text_of, write_table
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
 DECADES = ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1), (1e-1, np.inf))
-MEMORY = 1.0  # of the picker, for surrogates and energies; that of preset paper
+MEMORY = 1.0  # of the picker, for sums of energies; that of preset paper
 
 
 class History:
@@ -240,9 +240,8 @@ def rates(base, *paths):
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
         excess, _ = excess_of(found)
-        width, begin = float(found.header["width"]), found["t_start"].min()
-        wide = "" if width == 30 else f" (width {width:g})"
-        row = dict(fault=FAULTS[path.resolve().parent.name] + wide, length=f"{float(found.header['length']):g}", seed=found.header["seed"])
+        begin = found["t_start"].min()
+        row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-3, 1e-2, 1e-1):
             large = found["size"] >= least
             time, share = np.nan, np.nan
@@ -266,12 +265,12 @@ def write_series(path, pe, dt):
     Path(path).write_bytes(b"lsm-pe-series-1\n" + struct.pack("<q", len(head)) + head + records.tobytes())
 
 
-def numbers(postproc, pe, dt):
+def numbers(postproc, pe, dt, memory=MEMORY):
     """Number, mean time, exponent, and gamma and B of all times, of the events >= 1e-4 of a series, by postproc."""
     with tempfile.TemporaryDirectory() as work:
         write_series(f"{work}/pe.bin", pe, dt)
         common = dict(check=True, stdout=subprocess.PIPE, text=True)
-        subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(MEMORY)], **common)
+        subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(memory)], **common)
         if not np.any(lsm.read_catalogue(f"{work}/picked.csv")["size"] >= 1e-4):
             return dict(events=0, **dict.fromkeys(("one_in", "exponent", "gamma", "B"), np.nan))
         row, = summary.rows_of(postproc, [f"{work}/picked.csv"], ["1e-4"], ["1e-4:1e-1"], shortest=0)
@@ -301,9 +300,9 @@ def oscillator(samples, dt, viscosity):
     return w / np.abs(own**2 - w**2 + 1j * w * viscosity)
 
 
-def mean_return(series, dt):
+def mean_return(series, dt, memory=MEMORY):
     """Mean time between falls of the smoothed change through zero, 2 pi sigma / sigma of the derivative, were it Gaussian (Rice 1944)."""
-    keep = np.exp(-dt / MEMORY)
+    keep = np.exp(-dt / memory)
     frequency = 2 * np.pi * np.fft.rfftfreq(len(series) - 1)
     power = np.abs(np.fft.rfft(np.diff(series)) * (1 - keep) / (1 - keep * np.exp(-1j * frequency)))**2
     power[0] = 0.0
@@ -327,14 +326,15 @@ def surrogates(postproc, output, *runs):
     for run in runs:
         series, rng = lsm.read_series(f"{run}.pe.bin"), np.random.default_rng(1)
         dt, kept = float(series.header["dt"]), series["time"] >= LOADING
+        memory = -dt / np.log(float(lsm.read_catalogue(f"{run}.catalogue.csv").header["lambda"]))
         pe, step = np.asarray(series["pe"][kept]), np.asarray(series["step"][kept])
         others = {"run": pe, "without slip": without_slip(run, step, pe)} | {f"phases {n}": with_phases(pe, rng) for n in (1, 2, 3)}
         viscosity = float(series.header.get("viscosity", 0))
         if viscosity > 0:
             others["oscillator"] = with_phases(pe, rng, oscillator(len(pe) - 1, dt, viscosity))
         for name, other in others.items():
-            rows.append(dict(run=Path(run).name, series=name, **numbers(postproc, other, dt), by_spectrum=mean_return(other, dt)))
-    write_table(output, [f"Events >= 1e-4, memory {MEMORY}; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
+            rows.append(dict(run=Path(run).name, series=name, **numbers(postproc, other, dt, memory), by_spectrum=mean_return(other, dt, memory)))
+    write_table(output, ["Events >= 1e-4, memory of the catalogue; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
 
 
 def energies(postproc, output, *runs):

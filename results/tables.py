@@ -164,7 +164,7 @@ def slip_shares():
     for folder, preset in (DAMPING, "preset paper"), (SLIP, "preset slip"):
         for row in read(folder / "kinds.csv"):
             if float(row["smallest"]) in (0.001, 0.01):
-                name = "default" if row["run"].startswith("damped") else "" if row["run"].startswith("wide") else preset
+                name = "default" if row["run"].startswith("damped") else preset
                 found.setdefault((name, row["length"], row["seed"]), []).append((float(row["events"]), float(row["slip"])))
     return {key: (sum(n for n, _ in some), sum(n * x for n, x in some) / sum(n for n, _ in some)) for key, some in found.items()}
 
@@ -457,22 +457,24 @@ def recipes_table():
     return table(["recipe, length", "exponent (in each decade)", "gamma of all times", "B", "one event in", "s*, largest event"], out)
 
 
-def in_window(name, begin, end):
-    """Numbers of the events of a hardly damped fault within a time."""
-    path = DAMPING / f"{name}.catalogue.csv.xz"
+def in_window(name, begin, end, folder=DAMPING):
+    """Numbers of the events of a fault within a time."""
+    path = folder / f"{name}.catalogue.csv.xz"
     return summary.rows_of(POSTPROC, [path], ["1e-4"], ["1e-4:1e-1"], (), ("length", "dt"), begin, end, shortest=0)
 
 
 def half_step_table():
     """The same with half the time step, in the same time; at length 480 both from the same state on."""
-    out, first, second = [], ("120", calibrate.LOADING, 14700), ("480", 37300, HALF_STEP_UNTIL)
-    for name, (length, *times) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("fault_480_4", second), ("half_480_4", second)):
-        row, = in_window(name, *times)
+    out, first, second = [], ("hardly damped, 120", calibrate.LOADING, 14700), ("hardly damped, 480", 37300, HALF_STEP_UNTIL)
+    slip = "`preset slip`, 120", calibrate.LOADING, 15000, SLIP
+    for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("fault_480_4", second), ("half_480_4", second),
+                                  ("fault_120_4", slip), ("half_120_4", slip)):
+        row, = in_window(name, *where)
         out.append([
-            f"{length}, {float(row['dt']):g}", row["events_0.0001"],
+            f"{fault}, {float(row['dt']):g}", row["events_0.0001"],
             *(of(row, key) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"))
         ])
-    return table(["length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
+    return table(["fault, length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
 
 
 def motion_table():
@@ -554,7 +556,7 @@ def kinds_table():
 
 def ranks_table():
     """What friction does in the events, how far the place slips that slips farthest, and whether the slip lies together."""
-    return of_kinds(lambda row: ", ".join(f"{number(row, key):.2f}" for key in ("excess", "rank", "together")),
+    return of_kinds(lambda row: ", ".join(f"{number(row, key):.2f}" for key in ("friction", "rank", "together")),
                     lambda row: row["run"].startswith("damped") or row["seed"] == "4" and row["length"] in ("120", "480", "1890"))
 
 
@@ -652,32 +654,32 @@ def scale_and_time(row):
     return f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"
 
 
-LEADS = {"s003": "1", "p284": "0.7", "s150": "1"}  # and the memory at which each is nearest to what is printed
+SHOWN_VALUES = {
+    "stress": "0.02", "viscosity": "0.001", "kt": "0.08", "law": "coulomb 0.6 0.6", "kelvin_voigt": "0.004", "impedance": "0.25", "loose": "remove"
+}
 
 
-def leads_table():
-    """Other sets of values that have slip and some of what is printed, with a time step of 0.03 and true masses."""
-    rows = [row for row in calibrate.completed(POINTS) if row["dt"] == "0.03" and row["memory"] == LEADS.get(row["point"][:4])]
-    rows.sort(key=lambda row: (list(LEADS).index(row["point"][:4]), int(row["length"]), row["seed"]))
-    columns = {"point, length, packing": lambda row: f"{row['point'][:4]}, {row['length']}, {row['seed']}"}
-    columns |= {"exponent": EXPONENTS["1e-4 to 1e-1"], "in each decade": decades_of, "gamma of all times": "gamma_0.0001"}
-    return study_table("", columns | {"B, one event in": scale_and_time, "excess †": "excess"}, rows)
-
-
-def around_table():
-    """One value of preset slip changed at a time, packing 1, time step 0.12, memory 1."""
-    keys, rows = ("stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "loose", "seeds", "contacts", "mass"), {}
-    for row in calibrate.completed(POINTS):
-        if row["point"][0] == "s" and (row["memory"], row["seed"], row["dt"]) == ("1", "1", "0.12"):
-            rows.setdefault(row["point"][:4], {})[row["length"]] = row
-    base, out = rows["s156"]["120"], []
-    for name, found in rows.items():
-        changed = [key for key in keys if found.get("120", base)[key] != base[key]]
-        if {"120", "480"} <= set(found) and len(changed) <= 1:
-            both = [[shown(number(found[length], key)) for length in ("120", "480")]
-                    for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "mean_time_0.0001", "B_0.0001", "excess")]
-            out.append([", ".join(f"{key} {found['120'][key]}" for key in changed) or "none", *(", ".join(cells) for cells in both)])
-    return table(["changed", *(f"{what} at 120, 480" for what in ("exponent", "gamma", "one event in", "B", "excess †"))], sorted(out))
+def others_table():
+    """Sets of values between those of preset slip and others, by what differs from preset slip: what friction takes up, and contacts that let go."""
+    paths = sorted((SLIP / "others").glob("*.catalogue.csv.xz"))
+    rows, out = summary.rows_of(POSTPROC, paths, ["1e-4"], ranges=calibrate.RANGES, begin=calibrate.LOADING, shortest=0), []
+    for path, row in zip(paths, rows):
+        found = catalogues.lsm.read_catalogue(path)
+        size, (excess, loaded) = found["size"], slip_or_exchange.excess_of(found)
+        small, middle = (size >= 1e-3) & (size < 0.1), (size >= 1e-3) & (size < 1e-2)
+        friction = sum(excess[small] * size[small]) / sum(size[small] + loaded[small])
+        at_once = sum(found["jump"][middle] > 0.5) / sum(middle)
+        used = {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in found.header.items()}
+        differs = [f"{key} {used.get(key, '0')}" for key, value in SHOWN_VALUES.items() if used.get(key, "0") != value]
+        differs = [text.replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for text in differs]
+        out.append((at_once > 0.01, float(found.header["length"]), friction, [
+            f"{found.header['length']}, {found.header['seed']}: {', '.join(differs) or '`preset slip`, memory 1'}",
+            shown(friction), f"{100 * at_once:.0f}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
+            shown(number(row, "gamma_0.0001")),
+            scale_and_time(row)
+        ]))
+    head = ["length, packing: what differs", "friction's share †", "at once, % †", "exponent (in each decade)", "gamma", "B, one event in"]
+    return table(head, [cells for *_, cells in sorted(out)])
 
 
 def slider_table():
