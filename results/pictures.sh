@@ -47,11 +47,12 @@ for part; do
       }
       both fig12_fault_sizes fig14_fault_intervals "${faults[@]}"
       both damping_sizes damping_times damping/fault_{120,240,480,945,1440,1890}_4.catalogue.csv.xz
+      both slip_sizes slip_times slip/fault_{120,240,480,945,1890}_4.catalogue.csv.xz
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv png; do cp "$new/$fit.scaling.$kind" .; done
       done
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
-      for name in fig12_fault_sizes fig13_slider_sizes damping_sizes damping_times; do
+      for name in fig12_fault_sizes fig13_slider_sizes damping_sizes damping_times slip_sizes slip_times; do
         for kind in csv gp png svg; do cp "$new/$name.$kind" .; done
       done
       for name in fig14_fault_intervals fig15_slider_intervals; do
