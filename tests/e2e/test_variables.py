@@ -71,18 +71,18 @@ def test_a_preset_is_one_line_of_defaults(lmp, name):
     """All values of a preset are used, but for those that are given; headers and restart files state them."""
     line = re.search(f"^when preset {name} : (.*)$", (INPUTS / "fault.variables").read_text(), re.M)[1]
     preset = dict(part.split() for part in line.split(", "))
-    assert {"dt", "stress", "kt", "viscosity", "impedance" if name == "paper" else "hold"} <= set(preset)
+    assert {"dt", "stress", "kt", "viscosity", "impedance"} <= set(preset)
     said = run(lmp, small(preset=name, prefix="preset"))
     kept, stated = info("preset.restart.end.info"), header("preset.catalogue.csv")
     assert {key: kept[key] for key in preset} == preset
-    of_law = ("kt", "stress", "impedance") if name == "paper" else ("kt",)
+    of_law = ("kt", "stress", "impedance")
     assert {key: stated[key] for key in of_law} == {key: preset[key] for key in of_law}
     assert re.search(f"time step {preset['dt']} stable with any contacts: 0 particles raised", said.out)
     run(lmp, small(preset=name, prefix="other", stress=0.04))
     assert info("other.restart.end.info")["stress"] == "0.04" and info("other.restart.end.info")["kt"] == preset["kt"]
     run(lmp, small(prefix="default"))
     default = info("default.restart.end.info")
-    assert all(default[key] != preset[key] if key == "hold" else float(default[key]) != float(preset[key]) for key in preset)
+    assert all(float(default[key]) != float(preset[key]) for key in preset)
 
 
 def test_an_earlier_run_is_kept_from_the_beginning(lmp):
