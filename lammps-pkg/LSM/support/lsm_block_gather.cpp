@@ -26,10 +26,10 @@ void LSMBlockGather::start(const LSM::SampleBlock &mine)
               world_, &request_);
   pending_ = true;
 
-  const auto sum = [this](const std::vector<double> &of, std::vector<double> &all) {
-    all.resize(me_ == 0 ? of.size() : 0);
+  const auto sum = [this](const std::vector<double> &of, std::vector<double> &sums) {
+    sums.resize(me_ == 0 ? of.size() : 0);
     if (!of.empty())
-      MPI_Reduce(of.data(), all.data(), static_cast<int>(of.size()), MPI_DOUBLE, MPI_SUM, 0,
+      MPI_Reduce(of.data(), sums.data(), static_cast<int>(of.size()), MPI_DOUBLE, MPI_SUM, 0,
                  world_);
   };
   sum(mine.friction, block_.friction);
