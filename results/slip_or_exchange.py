@@ -3,7 +3,6 @@
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
 slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the work of friction and what is below
-slip_or_exchange.py jumps FILE.csv.xz SERIES.pe.bin...   adds the column jump to such files, from the series of their runs
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
@@ -111,11 +110,16 @@ def random_starts(history, events, first, seed):
         yield start
 
 
+def friction_between(work, lasting, total, time):
+    """Power of friction between events that take up `work` and last so long, of `total` in all of the time."""
+    return (total - np.sum(work)) / (time - np.sum(lasting))
+
+
 def judged(history, events, first):
     """Excess, rank and chance of all events of a run, in order, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
     work = events["friction_work"] if "friction_work" in events.dtype.names else history.worked(begin, end)  # step by step, if it was recorded
-    rate = (history.worked(first, history.steps[-1]) - np.sum(work)) / (history.steps[-1] - first - np.sum(end - begin))
+    rate = friction_between(work, end - begin, history.worked(first, history.steps[-1]), history.steps[-1] - first)
 
     def excess(work):
         return np.asarray((work - rate * (end - begin)) / events["size"])
@@ -134,8 +138,13 @@ def excess_of(events):
     """
     work, lasting = events["friction_work"], events["t_end"] - events["t_start"]
     total, time = events["friction_total"][-1] - events["friction_total"][0], events["t_end"][-1] - events["t_end"][0]
-    between = (total - np.sum(work[1:])) / (time - np.sum(lasting[1:]))
+    between = friction_between(work[1:], lasting[1:], total, time)
     return np.asarray((work - between * lasting) / events["size"]), np.asarray((total / time - between) * lasting)
+
+
+def friction_share(size, excess, loaded):
+    """What friction takes up in events together, over what their springs lose, with what these are loaded with meanwhile."""
+    return np.sum(excess * size) / np.sum(size + loaded)
 
 
 def gathered(history, events, first):
@@ -153,6 +162,7 @@ def slip_share(excess, chance):
 
 
 AROUND = 30  # steps before and after a fall of PE
+AT_ONCE = 0.5  # an event lets go at once if it loses more than this share of its size in one step
 
 
 def jumps(pe, steps, events):
@@ -165,38 +175,22 @@ def jumps(pe, steps, events):
     return np.array(shares)
 
 
-def write_events(path, comments, events, columns):
-    """Events with further columns, {name: numbers}."""
-    with lzma.open(path, "wt") as file:
-        file.write("".join(comments) + ",".join([*events.dtype.names, *columns]) + "\n")
-        for event, *of in zip(events, *columns.values()):
-            file.write(",".join([*(text_of(event[name]) for name in events.dtype.names), *(f"{number:.9g}" for number in of)]) + "\n")
-
-
-def add_jumps(*paths):
-    for path, series in zip(paths[::2], map(lsm.read_series, paths[1::2])):
-        with lzma.open(path, "rt") as file:
-            comments = [line for line in file if line.startswith("#")]
-        found = lsm.read_catalogue(path)
-        write_events(path, comments, found[[name for name in found.dtype.names if name != "jump"]],
-                     {"jump": jumps(np.asarray(series["pe"]), np.asarray(series["step"]), found)})
-
-
 def events(run, output, begin=LOADING):
     begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = recorded(catalogue, history, begin)
     first = (begin - history.offset) / history.dt
     begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
-    excess, *stretches = judged(history, kept, first)
+    series = lsm.read_series(f"{run}.pe.bin")
     columns = {} if "friction_work" in kept.dtype.names else {"friction_work": history.worked(begins, ends), "friction_total": history.done(ends)}
-    columns |= dict(zip(("rank", "chance"), stretches)) | {"together": gathered(history, kept, first)}
-    if Path(f"{run}.pe.bin").exists():
-        series = lsm.read_series(f"{run}.pe.bin")
-        columns["jump"] = jumps(np.asarray(series["pe"]), np.asarray(series["step"]), kept)
-    comments = ["# lsm-catalogue 1\n"] + [f"# {key} = {value}\n" for key, value in catalogue.header.items()]
-    comments.append(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together, jump: results/slip_or_exchange.py\n")
-    write_events(output, comments, kept, columns)
+    columns |= dict(zip(("rank", "chance"), judged(history, kept, first)[1:])) | {"together": gathered(history, kept, first)}
+    columns["jump"] = jumps(np.asarray(series["pe"]), np.asarray(series["step"]), kept)
+    with lzma.open(output, "wt") as file:
+        file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
+        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together, jump: results/slip_or_exchange.py\n")
+        file.write(",".join([*kept.dtype.names, *columns]) + "\n")
+        for event, *of in zip(kept, *columns.values()):
+            file.write(",".join([*(text_of(event[name]) for name in kept.dtype.names), *(f"{number:.9g}" for number in of)]) + "\n")
 
 
 def kinds(output, *paths):
@@ -211,9 +205,9 @@ def kinds(output, *paths):
                 size = of["size"]
                 rows.append(
                     dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
-                         events=len(of), excess=np.sum(excess * size) / np.sum(size), friction=np.sum(excess * size) / np.sum(size + loaded[within]),
+                         events=len(of), excess=np.sum(excess * size) / np.sum(size), friction=friction_share(size, excess, loaded[within]),
                          rank=np.mean(of["rank"]), together=np.mean(of["together"]), chance=np.mean(of["chance"]),
-                         slip=slip_share(excess, of["chance"]), jump=np.mean(of["jump"] > 0.5) if "jump" in of.dtype.names else np.nan))
+                         slip=slip_share(excess, of["chance"]), jump=np.mean(of["jump"] > AT_ONCE)))
     write_table(output, [
         "Events by size; excess: of their sum; friction: its share of what their springs lose, with what these are loaded with meanwhile;",
         "slip: share that is slip, beyond chance; jump: share more than half of which falls in one step (slip_or_exchange.py kinds)"
@@ -488,8 +482,8 @@ def quality(output, *runs):
 
 
 if __name__ == "__main__":
-    commands = dict(jumps=add_jumps, quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates,
-                    surrogates=surrogates, energies=energies, switched=switched, figure=figure)
+    commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates, surrogates=surrogates,
+                    energies=energies, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

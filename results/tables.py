@@ -159,14 +159,17 @@ def tolerance_of(statement):
 
 
 def slip_shares():
-    """Share of the events of 0.001 to 0.1 that are slip, beyond chance: {(preset, length, packing): (events, share)}."""
+    """Share of the events of 0.001 to 0.1 that are slip, beyond chance, of each packing: {(preset, length): shares}."""
     found = {}
     for folder, preset in (DAMPING, "preset paper"), (SLIP, "preset slip"):
         for row in read(folder / "kinds.csv"):
             if float(row["smallest"]) in (0.001, 0.01):
                 name = "default" if row["run"].startswith("damped") else preset
                 found.setdefault((name, row["length"], row["seed"]), []).append((float(row["events"]), float(row["slip"])))
-    return {key: (sum(n for n, _ in some), sum(n * x for n, x in some) / sum(n for n, _ in some)) for key, some in found.items()}
+    shares = {}
+    for (name, length, _), some in found.items():
+        shares.setdefault((name, length), []).append(sum(n * x for n, x in some) / sum(n for n, _ in some))
+    return shares
 
 
 def paper_table():
@@ -174,23 +177,24 @@ def paper_table():
     groups, slip = {}, slip_shares()
     for name, folder, lengths in (("default", CAMPAIGN, ("120",)), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", "480"))):
         rows = grouped(of_all_times(folder), lambda row: row["length"])
-        groups |= {f"{name}, {length}": rows[length] for length in lengths}
-    shares = [spread([share for key, (_, share) in slip.items() if ", ".join(key[:2]) == name]) for name in groups]
+        groups |= {(name, length): rows[length] for length in lengths}
+    shares = [spread(slip.get(key, [])) for key in groups]
     out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *shares]]
     out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
-    return table(["statement of the paper, or † (tolerance)", *groups],
+    return table(["statement of the paper, or † (tolerance)", *map(", ".join, groups)],
                  [row for row in out if set(row[1:]) != {"-"}] + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
 
 def agreement_table():
     """The README's: the printed numbers in three faults, means of the packings."""
     slip, out = slip_shares(), {}
-    for name, folder, lengths in (("hardly damped (`preset paper`)", DAMPING, (120, 240, 480, 945, 1890)),
-                                  ("slipping (`preset slip`)", SLIP, (120, 240, 480, 945, 1890)), ("radiating (default)", CAMPAIGN, (120, 1890))):
-        rows, preset = grouped(of_all_times(folder), lambda row: int(row["length"])), name.split("(")[1].strip("`)")
-        shares = [[share for key, (_, share) in slip.items() if key[:2] == (preset, str(length))] for length in lengths]
-        shares = [f"{100 * statistics.mean(some):.0f}" for some in shares if some]
-        out[f"{name}: {', '.join(map(str, lengths))}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
+    all_lengths = ("120", "240", "480", "945", "1890")
+    for preset, head, folder, lengths in (("preset paper", "hardly damped (`preset paper`)", DAMPING, all_lengths),
+                                          ("preset slip", "slipping (`preset slip`)", SLIP, all_lengths), ("default", "radiating (default)", CAMPAIGN,
+                                                                                                           ("120", "1890"))):
+        rows = grouped(of_all_times(folder), lambda row: row["length"])
+        shares = [f"{100 * statistics.mean(slip[preset, length]):.0f}" for length in lengths if (preset, length) in slip]
+        out[f"{head}: {', '.join(lengths)}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
             ", ".join(shown(statistics.mean(number(row, key) for row in rows[length])) for length in lengths)
             for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
         ]
@@ -354,6 +358,7 @@ def stretches_table():
 # ---- damping
 
 
+@functools.cache
 @functools.cache
 def of_all_times(folder):
     """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
@@ -654,23 +659,23 @@ def scale_and_time(row):
     return f"{shown(number(row, 'B_0.0001'))}, {shown(number(row, 'mean_time_0.0001'))}"
 
 
-SHOWN_VALUES = {
-    "stress": "0.02", "viscosity": "0.001", "kt": "0.08", "law": "coulomb 0.6 0.6", "kelvin_voigt": "0.004", "impedance": "0.25", "loose": "remove"
-}
-
-
 def others_table():
     """Sets of values between those of preset slip and others, by what differs from preset slip: what friction takes up, and contacts that let go."""
-    paths = sorted((SLIP / "others").glob("*.catalogue.csv.xz"))
+
+    def used(header):
+        texts = {key: header.get(key, "0") for key in ("stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")}
+        return {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in texts.items()}
+
+    paths, preset = sorted(
+        (SLIP / "others").glob("*.catalogue.csv.xz")), used(catalogues.lsm.read_catalogue(SLIP / "fault_120_4.catalogue.csv.xz").header)
     rows, out = summary.rows_of(POSTPROC, paths, ["1e-4"], ranges=calibrate.RANGES, begin=calibrate.LOADING, shortest=0), []
     for path, row in zip(paths, rows):
         found = catalogues.lsm.read_catalogue(path)
         size, (excess, loaded) = found["size"], slip_or_exchange.excess_of(found)
         small, middle = (size >= 1e-3) & (size < 0.1), (size >= 1e-3) & (size < 1e-2)
-        friction = sum(excess[small] * size[small]) / sum(size[small] + loaded[small])
-        at_once = sum(found["jump"][middle] > 0.5) / sum(middle)
-        used = {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in found.header.items()}
-        differs = [f"{key} {used.get(key, '0')}" for key, value in SHOWN_VALUES.items() if used.get(key, "0") != value]
+        friction = slip_or_exchange.friction_share(size[small], excess[small], loaded[small])
+        at_once = np.mean(found["jump"][middle] > slip_or_exchange.AT_ONCE)
+        differs = [f"{key} {value}" for key, value in used(found.header).items() if value != preset[key]]
         differs = [text.replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for text in differs]
         out.append((at_once > 0.01, float(found.header["length"]), friction, [
             f"{found.header['length']}, {found.header['seed']}: {', '.join(differs) or '`preset slip`, memory 1'}",

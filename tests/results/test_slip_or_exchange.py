@@ -39,6 +39,7 @@ def test_excess_rank_and_chance(script, postproc, work):
         write_catalogue(f"{name}.catalogue.csv", begin * dt, [0.01] * cycles, dict(model="lsm", length=10, width=30, seed=1), t_end=(begin + 1) * dt,
                         step_start=begin, step_end=begin + 1)
         Path(f"{name}.slip.bin").write_bytes(Path("run.slip.bin").read_bytes())
+        write_series(f"{name}.pe.bin", np.zeros(len(steps)), dict(dt=dt, step0=first, time0=first * dt))
         run(script, "events", name, f"{name}.events.csv.xz")
         _, found = read_catalogue(f"{name}.events.csv.xz")
         assert len(found["size"]) == cycles
@@ -117,6 +118,7 @@ def test_springs_are_loaded_while_they_slip():
     excess, loaded = slip_or_exchange.excess_of(found)
     np.testing.assert_allclose(excess, 1.25)
     np.testing.assert_allclose(excess * found["size"] / (found["size"] + loaded), 1.0)
+    assert slip_or_exchange.friction_share(found["size"], excess, loaded) == pytest.approx(1.0)
 
 
 def test_random_phases_keep_the_spectrum():

@@ -150,6 +150,13 @@ class EventStreamFiles : public unit::Files {
   static std::vector<LSM::Event> events_of(const EventSettings &s) {
     return unit::read_catalogue(s.catalogue_file).events;
   }
+  /// Events of the first 500 steps, in blocks of so many.
+  static std::vector<LSM::Event> events_after(const EventSettings &s, int block) {
+    MadeUpRun run(s);
+    run.begin();
+    run.run(0, 500, block);
+    return events_of(s);
+  }
   static std::vector<LSM::Event> ruptures_of(const EventSettings &s) {
     return unit::read_catalogue(s.ruptures_file).events;
   }
@@ -203,11 +210,7 @@ TEST_F(EventStreamFiles, BlocksLeaveNoTrace) {
 }
 
 TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
-  const EventSettings settings = pe_settings("a", true);
-  MadeUpRun run(settings);
-  run.begin();
-  run.run(0, 500, 50);
-  const auto events = events_of(settings);
+  const auto events = events_after(pe_settings("a", true), 50);
   ASSERT_GE(events.size(), 5u);
   for (const LSM::Event &event : events) {
     // Bin b of those that slip moves by 0.02 (b + 1) in each step in which PE falls.
@@ -224,11 +227,7 @@ TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
 
 // Not a share of the intervals of four steps in which a drop begins and ends: slips are shorter.
 TEST_F(EventStreamFiles, FrictionOfADropIsThatOfItsSteps) {
-  const EventSettings settings = rupture_settings("a");
-  MadeUpRun run(settings);
-  run.begin();
-  run.run(0, 500, 33);
-  const auto drops = events_of(settings);
+  const auto drops = events_after(rupture_settings("a"), 33);
   ASSERT_GE(drops.size(), 10u);
   for (const LSM::Event &drop : drops) {
     double within = 0.0, total = 0.0;

@@ -16,7 +16,7 @@ DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
       modulus_(modulus),
       fraction_(fraction),
       end_(grid.step0),
-      open_(grid.bins) {}
+      open_(static_cast<std::size_t>(grid.bins), 0.0) {}
 
 void DropLocator::add(const Event &drop, const Report &report) {
   waiting_.push_back({drop, open_});
@@ -35,7 +35,7 @@ void DropLocator::add_interval(std::int64_t step, const FaultRow &row,
 
 void DropLocator::finish(std::int64_t step, const FaultRow &row, const Report &report) {
   for (Drop &drop : waiting_) {
-    add_part(drop.sum, drop.event.step_start, drop.event.step_end, step, row);
+    add_part(drop.slip, drop.event.step_start, drop.event.step_end, step, row);
     report(located(drop));
   }
   waiting_.clear();
@@ -46,25 +46,24 @@ double DropLocator::part_of(std::int64_t from, std::int64_t to, std::int64_t ste
   return inside <= 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(step - end_);
 }
 
-void DropLocator::add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
-                           const FaultRow &row) const {
+void DropLocator::add_part(std::vector<double> &slip, std::int64_t from, std::int64_t to,
+                           std::int64_t step, const FaultRow &row) const {
   const double part = part_of(from, to, step);
   if (part == 0.0) return;
-  for (std::size_t b = 0; b < sum.slip.size(); ++b)
-    sum.slip[b] += part * static_cast<double>(row.slip[b]);
+  for (std::size_t b = 0; b < slip.size(); ++b) slip[b] += part * static_cast<double>(row.slip[b]);
 }
 
 Event DropLocator::located(const Drop &drop) const {
   Event e = drop.event;
   double sum = 0.0, largest = 0.0, cosines = 0.0, sines = 0.0;
-  for (std::size_t b = 0; b < drop.sum.slip.size(); ++b) {
-    const double slip = drop.sum.slip[b], size = std::fabs(slip);
+  for (std::size_t b = 0; b < drop.slip.size(); ++b) {
+    const double slip = drop.slip[b], size = std::fabs(slip);
     sum += slip;
     largest = std::max(largest, size);
     cosines += size * centroid_.cosine(b);
     sines += size * centroid_.sine(b);
   }
-  const auto ruptured = std::count_if(drop.sum.slip.begin(), drop.sum.slip.end(), [&](double slip) {
+  const auto ruptured = std::count_if(drop.slip.begin(), drop.slip.end(), [&](double slip) {
     return std::fabs(slip) > fraction_ * largest;
   });
   e.slip_moment = modulus_ * sum * grid_.width;
@@ -85,9 +84,9 @@ void DropLocator::set_state(const std::vector<double> &saved) {
   DropLocator read = *this;
   StateReader in(saved);
   visit(read, in);
-  bool sane = in.left() == 0 && read.open_.slip.size() == open_.slip.size() &&
+  bool sane = in.left() == 0 && read.open_.size() == open_.size() &&
               (read.end_ - grid_.step0) % grid_.interval == 0;
-  for (const Drop &drop : read.waiting_) sane = sane && drop.sum.slip.size() == open_.slip.size();
+  for (const Drop &drop : read.waiting_) sane = sane && drop.slip.size() == open_.size();
   if (!sane) throw std::invalid_argument("saved slip of drops is inconsistent");
   *this = std::move(read);
 }

@@ -5,6 +5,7 @@
 #ifndef LSM_DROP_LOCATOR_H
 #define LSM_DROP_LOCATOR_H
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -31,7 +32,7 @@ class DropLocator {
   /// Takes a drop that ended, in order of time.
   void add(const Event &drop, const Report &report);
   /// Forgets the drop that was open: it ended and is not written.
-  void forget_open() { open_ = Sum(grid_.bins); }
+  void forget_open() { std::fill(open_.begin(), open_.end(), 0.0); }
   /// Adds the interval that ends at a step.
   /// \param begun step at which the drop began that is open at its end, if one is
   void add_interval(std::int64_t step, const FaultRow &row, std::optional<std::int64_t> begun,
@@ -50,45 +51,36 @@ class DropLocator {
   void set_state(const std::vector<double> &saved);
 
  private:
-  /// What a fault did during a drop.
-  struct Sum {
-    explicit Sum(int bins = 0) : slip(static_cast<std::size_t>(bins), 0.0) {}
-    std::vector<double> slip;  // of each bin
-    template <class Self, class State>
-    static void visit(Self &self, State &state) {
-      state.list(self.slip);
-    }
-  };
   struct Drop {
     Event event;
-    Sum sum;
+    std::vector<double> slip;  // of each bin
     template <class Self, class State>
     static void visit(Self &self, State &state) {
       auto &e = self.event;
       state(e.id, e.t_start, e.t_end, e.step_start, e.step_end, e.size, e.pe_start, e.pe_end);
       state(e.friction_work, e.friction_total);
-      Sum::visit(self.sum, state);
+      state.list(self.slip);
     }
   };
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     state(self.end_);
-    Sum::visit(self.open_, state);
+    state.list(self.open_);
     state.list(self.waiting_);
   }
 
   /// Share of the interval from end_ to `step` that lies between two steps.
   double part_of(std::int64_t from, std::int64_t to, std::int64_t step) const;
-  /// Adds what the fault did in that share.
-  void add_part(Sum &sum, std::int64_t from, std::int64_t to, std::int64_t step,
+  /// Adds the slip in that share.
+  void add_part(std::vector<double> &slip, std::int64_t from, std::int64_t to, std::int64_t step,
                 const FaultRow &row) const;
   Event located(const Drop &drop) const;
 
   FaultGrid grid_;
   MeanPlace centroid_;
   double modulus_, fraction_;
-  std::int64_t end_;  // of the last complete interval
-  Sum open_;          // of the open drop until then
+  std::int64_t end_;          // of the last complete interval
+  std::vector<double> open_;  // slip of each bin in the open drop until then
   std::vector<Drop> waiting_;
 };
 
