@@ -214,6 +214,13 @@ def kinds(output, *paths):
     ], rows)
 
 
+def time_and_share(found, excess, of):
+    """Mean time between some of the events of a catalogue, and share of these that are slip; NaN if there are none."""
+    if not np.any(of):
+        return np.nan, np.nan
+    return (found["t_end"].max() - found["t_start"].min()) / np.sum(of), slip_share(excess[of], found["chance"][of])
+
+
 FAULTS = {"damping": "hardly damped", "slip": "preset slip"}
 RATES = """set logscale xy
 set xrange [100:2300]
@@ -234,13 +241,9 @@ def rates(base, *paths):
     for path in map(Path, paths):
         found = lsm.read_catalogue(path)
         excess, _ = excess_of(found)
-        begin = found["t_start"].min()
         row = dict(fault=FAULTS[path.resolve().parent.name], length=f"{float(found.header['length']):g}", seed=found.header["seed"])
         for least in (1e-3, 1e-2, 1e-1):
-            large = found["size"] >= least
-            time, share = np.nan, np.nan
-            if np.any(large):
-                time, share = (found["t_end"].max() - begin) / np.sum(large), slip_share(excess[large], found["chance"][large])
+            time, share = time_and_share(found, excess, found["size"] >= least)
             row |= {f"all_{least:g}": time, f"share_{least:g}": share, f"slip_{least:g}": time / share if share > 0 else np.nan}
         rows.append(row)
     rows.sort(key=lambda row: (row["fault"], float(row["length"])))

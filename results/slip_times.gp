@@ -48,30 +48,30 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-07:0.10000000000000001]
+set yrange [9.9999999999999995e-07:1]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (1199 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (1405 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (1071 times)", \
+     keyentry with linespoints lt 2 title "fault, length 1890 (502 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (1218 times)", \
+     keyentry with linespoints lt 3 title "fault, length 240 (904 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (658 times)", \
+     keyentry with linespoints lt 4 title "fault, length 480 (832 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1890 (536 times)", \
-     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.023579336460808932*$1**(0.32833522583982644)*exp(-$1**(1)/18.280220041213738)) with lines lt 1 dt 3 lw 2 notitle, \
-     [0.50118723362727224:199.52623149688822] '+' using 1:(0.032758124637280284*$1**(0.33358920875786446)*exp(-$1**(1)/14.130901632537478)) with lines lt 2 dt 3 lw 2 notitle, \
-     [0.31622776601683783:398.10717055349784] '+' using 1:(0.056470227839993795*$1**(0.054257675178662312)*exp(-$1**(1)/15.69899709246611)) with lines lt 3 dt 3 lw 2 notitle, \
-     [0.63095734448019314:316.22776601683836] '+' using 1:(0.051134643084886335*$1**(0.11620478591803418)*exp(-$1**(1)/15.095809846138515)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.50118723362727224:199.52623149688822] '+' using 1:(0.052279805744829738*$1**(0.043705554833527671)*exp(-$1**(1)/17.292308424177779)) with lines lt 5 dt 3 lw 2 notitle, \
+     keyentry with linespoints lt 5 title "fault, length 945 (614 times)", \
+     [0.50118723362727224:630.95734448019425] '+' using 1:(0.041845452274784527*$1**(0.096601145539742417)*exp(-$1**(1)/18.884627285700955)) with lines lt 1 dt 3 lw 2 notitle, \
+     [0.19952623149688789:199.52623149688822] '+' using 1:(0.067402598964376545*$1**(-0.078367910782799921)*exp(-$1**(1)/17.665698808542047)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.2511886431509579:501.18723362727303] '+' using 1:(0.045175410060560181*$1**(0.0018561837019828165)*exp(-$1**(1)/22.032764645779658)) with lines lt 3 dt 3 lw 2 notitle, \
+     [0.31622776601683783:398.10717055349784] '+' using 1:(0.057097614404312776*$1**(-0.11541416919257752)*exp(-$1**(1)/23.29137595957215)) with lines lt 4 dt 3 lw 2 notitle, \
+     [0.19952623149688789:199.52623149688822] '+' using 1:(0.068065031593167291*$1**(-0.16867611977066943)*exp(-$1**(1)/21.86009330630964)) with lines lt 5 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

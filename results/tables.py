@@ -41,6 +41,8 @@ POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
 DEFAULT = FOLDER / "calibration/default.csv.xz"  # points from which the default was chosen
 CAMPAIGN, VALIDATION, DAMPING, SLIP, RECIPES = (FOLDER / name for name in ("campaign", "validation", "damping", "slip", "packing"))
+PRESETS = {"default": CAMPAIGN, "preset paper": DAMPING, "preset slip": SLIP}
+JUDGED = {folder: slip_or_exchange.FAULTS[folder.name] for folder in (DAMPING, SLIP)}  # events of which are said to be slip or not
 LOADING = str(calibrate.LOADING)
 HALF_STEP_UNTIL = 40100  # of the run at length 480 with half the time step
 BURST = 0.6  # events that follow another faster are those of short waves
@@ -161,8 +163,8 @@ def tolerance_of(statement):
 def slip_shares():
     """Share of the events of 0.001 to 0.1 that are slip, beyond chance, of each packing: {(preset, length): shares}."""
     found = {}
-    for folder, preset in (DAMPING, "preset paper"), (SLIP, "preset slip"):
-        for row in read(folder / "kinds.csv"):
+    for preset in "preset paper", "preset slip":
+        for row in read(PRESETS[preset] / "kinds.csv"):
             if float(row["smallest"]) in (0.001, 0.01):
                 name = "default" if row["run"].startswith("damped") else preset
                 found.setdefault((name, row["length"], row["seed"]), []).append((float(row["events"]), float(row["slip"])))
@@ -175,9 +177,9 @@ def slip_shares():
 def paper_table():
     """Each statement for the three faults."""
     groups, slip = {}, slip_shares()
-    for name, folder, lengths in (("default", CAMPAIGN, ("120",)), ("preset paper", DAMPING, ("120", "480")), ("preset slip", SLIP, ("120", "480"))):
+    for name, folder in PRESETS.items():
         rows = grouped(of_all_times(folder), lambda row: row["length"])
-        groups |= {(name, length): rows[length] for length in lengths}
+        groups |= {(name, length): rows[length] for length in (("120",) if name == "default" else ("120", "480"))}
     shares = [spread(slip.get(key, [])) for key in groups]
     out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *shares]]
     out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
@@ -188,10 +190,9 @@ def paper_table():
 def agreement_table():
     """The README's: the printed numbers in three faults, means of the packings."""
     slip, out = slip_shares(), {}
-    all_lengths = ("120", "240", "480", "945", "1890")
-    for preset, head, folder, lengths in (("preset paper", "hardly damped (`preset paper`)", DAMPING, all_lengths),
-                                          ("preset slip", "slipping (`preset slip`)", SLIP, all_lengths), ("default", "radiating (default)", CAMPAIGN,
-                                                                                                           ("120", "1890"))):
+    heads = {"preset slip": "slipping (`preset slip`)", "preset paper": "hardly damped (`preset paper`)", "default": "radiating (default)"}
+    for preset, head in heads.items():
+        lengths, folder = ("120", "1890") if preset == "default" else ("120", "240", "480", "945", "1890"), PRESETS[preset]
         rows = grouped(of_all_times(folder), lambda row: row["length"])
         shares = [f"{100 * statistics.mean(slip[preset, length]):.0f}" for length in lengths if (preset, length) in slip]
         out[f"{head}: {', '.join(lengths)}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
@@ -412,7 +413,7 @@ def slip_rates_table():
 def wandering_table():
     """Numbers of consecutive stretches, each as long as a run of the calibration."""
     out, long = [], calibrate.STEPS * 0.12 - calibrate.LOADING
-    for name, folder in (("hardly damped", DAMPING), ("`preset slip`", SLIP)):
+    for folder, name in JUDGED.items():
         for length, path in ((length, path) for length, paths in faults(folder=folder).items() for path in paths):
             ends = np.arange(calibrate.LOADING + long, max(number(row, "t_end") for row in read(path)), long)
             if len(ends) < 2:
@@ -471,7 +472,7 @@ def in_window(name, begin, end, folder=DAMPING):
 def half_step_table():
     """The same with half the time step, in the same time; at length 480 both from the same state on."""
     out, first, second = [], ("hardly damped, 120", calibrate.LOADING, 14700), ("hardly damped, 480", 37300, HALF_STEP_UNTIL)
-    slip = "`preset slip`, 120", calibrate.LOADING, 15000, SLIP
+    slip = "preset slip, 120", calibrate.LOADING, 15000, SLIP
     for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("fault_480_4", second), ("half_480_4", second),
                                   ("fault_120_4", slip), ("half_120_4", slip)):
         row, = in_window(name, *where)
@@ -545,9 +546,10 @@ def crossing_table():
 def of_kinds(text, chosen=lambda row: True):
     """Events by size, a column for each decade."""
     groups = {}
-    for folder, names in (DAMPING, {"damped": "damped, plates absorb", "fault": "hardly damped"}), (SLIP, {"fault": "`preset slip`"}):
-        groups |= grouped(filter(chosen, read(folder / "kinds.csv")),
-                          lambda row, names=names: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
+    for folder, name in JUDGED.items():
+        groups |= grouped(
+            filter(chosen, read(folder / "kinds.csv")),
+            lambda row, name=name: f"{'damped, plates absorb' if row['run'].startswith('damped') else name}, {row['length']}, {row['seed']}")
     cells = {name: {float(row["smallest"]): text(row) for row in rows} for name, rows in groups.items()}
     return table(["fault, length, packing", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
                  [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))]
@@ -568,8 +570,7 @@ def ranks_table():
 def apart_table():
     """Events that count as slip, and the others, as catalogues of their own."""
     out = []
-    for name, folder, length in [(*one, length) for one in (("hardly damped", DAMPING), ("`preset slip`", SLIP))
-                                 for length in ("120", "480", "1890")]:
+    for folder, name, length in [(*one, length) for one in JUDGED.items() for length in ("120", "480", "1890")]:
         with tempfile.TemporaryDirectory() as work:
             paths = [Path(work, kind) for kind in ("slip.csv", "others.csv")]
             for path, kind in zip(paths, (">", "<=")):
@@ -592,7 +593,7 @@ def surrogates_table():
         "fault": lambda row: row["run"].replace("fault", "hardly damped").replace("_", " "), "series": lambda row: row["series"], "one in": "one_in",
         "by its spectrum": "by_spectrum"
     }
-    rows = [row for folder in (DAMPING, SLIP) for row in read(folder / "surrogates.csv")]
+    rows = [row for folder in JUDGED for row in read(folder / "surrogates.csv")]
     return study_table("", columns | {"exponent": "exponent", "gamma of all times": "gamma"}, rows)
 
 
@@ -660,10 +661,12 @@ def scale_and_time(row):
 
 
 def others_table():
-    """Sets of values between those of preset slip and others, by what differs from preset slip: what friction takes up, and contacts that let go."""
+    """Preset slip with another width, velocity and memory, other sets of values, and those with which contacts let go at once."""
 
     def used(header):
-        texts = {key: header.get(key, "0") for key in ("stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")}
+        keys = ("width", "velocity", "stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")
+        texts = {key: header.get(key, "0") for key in keys}
+        texts["memory"] = f"{-float(header['dt']) / math.log(float(header['lambda'])):.3g}"
         return {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in texts.items()}
 
     paths, preset = sorted(
@@ -676,15 +679,31 @@ def others_table():
         friction = slip_or_exchange.friction_share(size[small], excess[small], loaded[small])
         at_once = np.mean(found["jump"][middle] > slip_or_exchange.AT_ONCE)
         differs = [f"{key} {value}" for key, value in used(found.header).items() if value != preset[key]]
+        same = not differs[1:] and differs[0].split()[0] in ("width", "velocity", "memory")
         differs = [text.replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for text in differs]
-        out.append((at_once > 0.01, float(found.header["length"]), friction, [
-            f"{found.header['length']}, {found.header['seed']}: {', '.join(differs) or '`preset slip`, memory 1'}",
+        out.append((at_once > 0.01, not same, float(found.header["length"]), friction, [
+            f"{found.header['length']}, {found.header['seed']}: {', '.join(differs)}",
             shown(friction), f"{100 * at_once:.0f}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
             shown(number(row, "gamma_0.0001")),
             scale_and_time(row)
         ]))
     head = ["length, packing: what differs", "friction's share †", "at once, % †", "exponent (in each decade)", "gamma", "B, one event in"]
     return table(head, [cells for *_, cells in sorted(out)])
+
+
+def velocity_table():
+    """Preset slip, packing 4, with plates of the paper's velocity and of half of it: how often there are slips, and other drops."""
+    out = []
+    for length in ("120", "240", "480"):
+        for path in SLIP / f"fault_{length}_4.catalogue.csv.xz", SLIP / f"others/slow_{length}_4.catalogue.csv.xz":
+            found = catalogues.lsm.read_catalogue(path)
+            size, (excess, _), cells = found["size"], slip_or_exchange.excess_of(found), []
+            for low, high in ((1e-3, 1e-2), (1e-2, 0.1), (0.1, math.inf)):
+                time, share = slip_or_exchange.time_and_share(found, excess, (size >= low) & (size < high))
+                cells.append(f"{shown(time / share)}; {shown(time / (1 - share)) if share < 0.99 else '-'}")
+            time, share = slip_or_exchange.time_and_share(found, excess, size >= 1e-4)
+            out.append([f"{length}, {float(found.header['velocity']):g}", f"{shown(time)}; {100 * share:.0f}", *cells])
+    return table(["length, velocity", "all: one in; slip in %", "0.001 to 0.01: one slip in; one other in", "0.01 to 0.1", "above"], out)
 
 
 def slider_table():

@@ -48,7 +48,7 @@ def test_settings_of_a_run_are_those_of_its_preset():
     keys = ("stress", "viscosity", "kt", "mus", "impedance", "dt", "massstep")
     assert [default[key] for key in keys] == ["0.025", "0.05", "0.5", "0.6", "0.6", "0.12", "0.12"]
     assert [paper[key] for key in keys] == ["0.03", "5e-4", "0.3", "0.6", "0", "0.03", "0.03"]
-    assert [slip[key] for key in keys] == ["0.02", "0.001", "0.08", "0.6", "0.25", "0.03", "0.03"]
+    assert [slip[key] for key in keys] == ["0.03", "5e-4", "0.12", "0.6", "0.4", "0.03", "0.03"]
 
 
 def test_settings_go_to_the_surrogate_as_they_were_proposed():
