@@ -17,7 +17,7 @@ sys.path[:0] = [str(ROOT / "python"), str(ROOT / "inputs/studies")]
 import lsm  # noqa: E402
 from calibrate import LOADING  # noqa: E402, F401
 from lsm.drawing import draw  # noqa: E402, F401
-from text_tables import rows_of  # noqa: E402
+from text_tables import memory_of, rows_of  # noqa: E402, F401
 
 CALIFORNIA = ROOT / "inputs/seismicity/southern-california.csv.xz"
 PERIOD = ("1984-01-01", "1986-07-02T12:00")  # of the paper's Table 1: 1984.0 to 1986.5

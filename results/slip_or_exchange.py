@@ -39,7 +39,7 @@ from pathlib import Path
 
 import numpy as np
 import summary
-from catalogues import LOADING, draw, lsm, rows_of, text_of, write_table
+from catalogues import LOADING, draw, lsm, memory_of, rows_of, text_of, write_table
 
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
@@ -323,7 +323,7 @@ def surrogates(postproc, output, *runs):
     for run in runs:
         series, rng = lsm.read_series(f"{run}.pe.bin"), np.random.default_rng(1)
         dt, kept = float(series.header["dt"]), series["time"] >= LOADING
-        memory = -dt / np.log(float(lsm.read_catalogue(f"{run}.catalogue.csv").header["lambda"]))
+        memory = memory_of(lsm.read_catalogue(f"{run}.catalogue.csv").header)
         pe, step = np.asarray(series["pe"][kept]), np.asarray(series["step"][kept])
         others = {"run": pe, "without slip": without_slip(run, step, pe)} | {f"phases {n}": with_phases(pe, rng) for n in (1, 2, 3)}
         viscosity = float(series.header.get("viscosity", 0))

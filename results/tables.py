@@ -84,7 +84,7 @@ def summaries(folder=CAMPAIGN):
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
-        row["memory"] = str(-float(row["dt"]) / math.log(float(row["lambda"])))
+        row["memory"] = str(catalogues.memory_of(row))
         row |= {key: worded.get(path.name.split(".")[0], {}).get(text, "") for key, text in calibrate.WORDED.items()}
     return rows
 
@@ -359,7 +359,6 @@ def stretches_table():
 # ---- damping
 
 
-@functools.cache
 @functools.cache
 def of_all_times(folder):
     """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
@@ -666,7 +665,7 @@ def others_table():
     def used(header):
         keys = ("width", "velocity", "stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")
         texts = {key: header.get(key, "0") for key in keys}
-        texts["memory"] = f"{-float(header['dt']) / math.log(float(header['lambda'])):.3g}"
+        texts["memory"] = f"{catalogues.memory_of(header):.3g}"
         return {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in texts.items()}
 
     paths, preset = sorted(
@@ -678,10 +677,12 @@ def others_table():
         small, middle = (size >= 1e-3) & (size < 0.1), (size >= 1e-3) & (size < 1e-2)
         friction = slip_or_exchange.friction_share(size[small], excess[small], loaded[small])
         at_once = np.mean(found["jump"][middle] > slip_or_exchange.AT_ONCE)
-        differs = [f"{key} {value}" for key, value in used(found.header).items() if value != preset[key]]
-        same = not differs[1:] and differs[0].split()[0] in ("width", "velocity", "memory")
-        differs = [text.replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for text in differs]
-        out.append((at_once > 0.01, not same, float(found.header["length"]), friction, [
+        changed = {key: value for key, value in used(found.header).items() if value != preset[key]}
+        other = not changed.keys() <= {"width", "velocity", "memory"}
+        differs = [
+            f"{key} {value}".replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for key, value in changed.items()
+        ]
+        out.append((at_once > 0.01, other, float(found.header["length"]), friction, [
             f"{found.header['length']}, {found.header['seed']}: {', '.join(differs)}",
             shown(friction), f"{100 * at_once:.0f}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
             shown(number(row, "gamma_0.0001")),

@@ -27,7 +27,7 @@ import numpy as np
 from calibrate import LOADING
 from summary import rows_of  # of the folder results, which calibrate adds to the path
 from superpose import write
-from text_tables import header_of
+from text_tables import header_of, memory_of
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # number of sums with different shifts
@@ -144,7 +144,7 @@ def main(postproc, out, memory, stretch, begin, folders):
     random = np.random.default_rng(1)
     for folder in map(Path, folders):
         info, every, pe = stretches_of(folder, stretch, begin)
-        picker = -float(info["dt"]) / math.log(float(info["lambda"])) if memory is None else memory
+        picker = memory_of(info) if memory is None else memory
         run = {"length": info["length"], "seed": info["seed"], "stretches": len(pe)}
         changes += [{**run, **row} for row in variance(pe, every, float(info["dt"]))]
         shifted = [sum(np.roll(one, random.integers(len(one))) for one in pe - pe.mean(axis=1)[:, None]) for _ in range(SHIFTS)]

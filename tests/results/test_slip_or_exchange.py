@@ -164,7 +164,7 @@ def test_surrogates_and_energies(script, postproc, work):
     approach = 0.01 * np.sin(2 * math.pi * time / period)
     write_series("run.pe.bin", 5.0 + 1e-6 * (time - 9000) + load * approach, dict(dt=dt, time0=9000, viscosity=0.001))
     # One event that counts as slip: friction takes up all that the springs lose in the first 200 steps.
-    header = {"model": "lsm", "length": 120, "stress": 0.03, "lambda": math.exp(-dt)}  # a memory of 1
+    header = {"model": "lsm", "length": 120, "stress": 0.03, "dt": dt, "lambda": math.exp(-dt)}  # a memory of 1
     write_catalogue("run.catalogue.csv", [9001.0], [0.1], header, t_end=[9021.0], step_start=[10], step_end=[210])
     work_done = np.where(np.arange(n) < 211, 0.1 / 200, 0.0)
     write_history("run.slip.bin", np.arange(n), np.zeros((n, 4)), work=np.repeat(work_done[:, None] / 4, 4, axis=1), dt=dt)
