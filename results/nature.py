@@ -231,18 +231,24 @@ def curves(rows):
     return out
 
 
+CURVES = (NATURE, "fault 1890", "fault 120", "ruptures of fault 480", "slider 1928", "ruptures of slider 1928")
+
+
 def picture(rows, base):
-    """Distances of all rows; times, magnitudes and clustering of the nearest row of each label. Colours: labels, symbols: sizes."""
-    sizes, labels = sorted({row["threshold"] for row in rows if row["label"] != NATURE}), list(dict.fromkeys(row["label"] for row in rows))
-    drawn = []
+    """Distances of the nearest row of each label and of all earthquakes; times, magnitudes and clustering of some of them, in colour."""
+    drawn, seen = [], set()
     for number, row in enumerate(rows, 1):
-        name = row["label"] + (", M " if row["label"] == NATURE else ", ") + from_text(row).split(" ", 1)[1]
-        style = f"lc rgb '#000000' lw {2 if number == 1 else 1} dt 1 pt {7 if number == 1 else 6}"
-        if row["label"] != NATURE:
-            style = f"lt {(labels.index(row['label']) + 6) % 7 + 1} pt {(7, 5, 9, 11, 13, 15)[sizes.index(row['threshold']) % 6]}"
-        drawn.append((number, name, style, all(row["label"] != other["label"] for other in rows[:number - 1])))
-    height = max(900, 130 + 34 * len(rows))
-    entries = [(name, style) for _, name, style, nearest in drawn if nearest]
+        label = row["label"]
+        first = label not in seen
+        if not first and label != NATURE:
+            continue
+        seen.add(label)
+        name = label + (", M " if label == NATURE else ", ") + from_text(row).split(" ", 1)[1]
+        style = f"lc rgb '#000000' lw {2 if first else 1} dt 1 pt {7 if first else 6}" if label == NATURE else (
+            f"lt {CURVES.index(label)} lw 1.5 pt {(7, 5, 9, 11, 13)[CURVES.index(label) - 1]}" if label in CURVES else "lc rgb '#888888' pt 6")
+        drawn.append((number, name, style, first and label in CURVES))
+    height = max(900, 130 + 34 * len(drawn))
+    entries = [(name, style) for _, name, style, shown in drawn if shown]
     legend, top = 26 * (1 + len(entries)) / height + 0.01, 0.97  # the key is below the panels on the right
     high = (top - 0.09 - legend) / 0.77
 
@@ -252,19 +258,21 @@ set lmargin at screen {left}; set rmargin at screen {right}; set bmargin at scre
 set xlabel "{x}"; set ylabel "{y}"
 """
 
-    def plot(name, values, style):
-        return "plot " + ", \\\n".join(f"table using (at('{name}', {number})):{values} with {style.format(own)} notitle"
-                                       for number, _, own, nearest in drawn if (number > 1 if name == "distance" else nearest))
+    place = {number: -n for n, (number, *_) in enumerate(drawn, 1)}
 
-    ticks = ", ".join(f'"{name}" {-number}' for number, name, *_ in drawn[1:])
+    def plot(name, values, style):
+        return "plot " + ", \\\n".join(f"table using (at('{name}', {number})):{values.format(place[number])} with {style.format(own)} notitle"
+                                       for number, _, own, shown in drawn if (number > 1 if name == "distance" else shown))
+
+    ticks = ", ".join(f'"{name}" {place[number]}' for number, name, *_ in drawn[1:])
     logs = "set logscale y; set format y '10^{%L}'; set yrange "
     corral = "[0.003:10] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) lw 2 notitle"
     keys = "".join(f", keyentry with linespoints {style} title \"{name}\"" for name, style in entries)
     draw(base, "\n".join([
         "at(p, k) = strcol(1) eq p && $2 == k ? $3 : NaN\nset multiplot\nset key off",
         panel(0.36, 0.58, 0.1, 0.97, "distance of the inter-event times", "",
-              f"set xrange [0:*]; set yrange [{-len(rows) - 0.7}:-1.3]; set xtics 0.2; set ytics ({ticks})"),
-        plot("distance", "4:5", "xerrorbars {} ps 1.3"),
+              f"set xrange [0:*]; set yrange [{-len(drawn) - 0.7}:-1.3]; set xtics 0.2; set ytics ({ticks})"),
+        plot("distance", "({}):5", "xerrorbars {} ps 1.3"),
         panel(0.68, 0.98, top - 0.17 * high, top, "inter-event time / mean", "probability density",
               f"{logs}[1e-4:1e2]; set logscale x; set format x '10^{{%L}}'; set xrange [1e-3:1e2]"),
         plot("times", "4", "linespoints {} ps 0.7") + ", " + corral,

@@ -11,7 +11,7 @@ slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time uni
 slip_or_exchange.py quality OUT.csv RUN...          how fast blocks that were glued together stop ringing, with their quality factor
 slip_or_exchange.py kinetic OUT.csv RUN...          mean kinetic energy in each 2000 time units, of the RUN.energy.txt of extra=fault_energy
 slip_or_exchange.py motion OUT.csv RUN              kinetic energy by period and by radius of the disc, of the RUN.STEP.dump of extra=fault_dump
-slip_or_exchange.py figure OUT RUN FROM TO RUN FROM TO   a stretch of two runs: OUT.png and OUT.svg
+slip_or_exchange.py figure OUT RUN FROM TO...   a stretch of each run, of preset paper, preset slip and the default: OUT.png and OUT.svg
 slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and impedance, of calibrate.py collect: OUT.png and OUT.svg
 
 RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
@@ -425,49 +425,66 @@ def stretch(run, begin, end):
 
 
 def figure(base, *stretches):
-    script = "set multiplot layout 3,2 columnsfirst margins 0.11,0.98,0.09,0.94 spacing 0.14,0.05\nunset key\n"
-    for title, run, begin, end in zip(("hardly damped, plates reflect", "damped, plates absorb"), *[iter(stretches)] * 3):
+    script = f"set multiplot layout 3,{len(stretches) // 3} columnsfirst margins 0.08,0.98,0.09,0.94 spacing 0.1,0.05\nunset key\n"
+    for title, run, begin, end in zip(("hardly damped (preset paper)", "preset slip", "damped (default)"), *[iter(stretches)] * 3):
         begin, end = float(begin), float(end)
         lines, spans = stretch(run, begin, end)
         script += "unset object\n" + "".join(
             f"set object {n} rect from {a - begin:.2f},graph 0 to {z - begin:.2f},graph 1 fc rgb '{'#f3b26b' if slip else '#c3dcf2'}' fs solid noborder behind\n"
             for n, (a, z, slip) in enumerate(spans, 1))
-        for label, (x, y) in zip(("potential energy", "kinetic energy", "frictional work a time"), lines):
-            first, last = label == "potential energy", label == "frictional work a time"
+        for label, (x, y) in zip(("potential energy", "kinetic energy", "frictional work per time"), lines):
+            first, last = label == "potential energy", label == "frictional work per time"
             script += f"set title '{title if first else ''}'\nset xlabel '{'time' if last else ''}'\nset ylabel '{label}'\nset format x '{'%g' if last else ''}'\n"
             script += f"set xrange [0:{end - begin:g}]\nset yrange [{'*' if first else 0}:*]\nset datafile separator\nplot '-' w l lt 8\n"
             script += "\n".join(f"{a - begin:.3f} {b:.6g}" for a, b in zip(x, y)) + "\ne\n"
-    draw(base, script + "unset multiplot", 1100, 760)
+    draw(base, script + "unset multiplot", 1400, 760)
+
+
+PANELS = (  # label, column, lines of the paper and of earthquakes, how it is drawn
+    ("mean time between events", "mean_time_0.0001", {"paper": 15.2}, "set logscale y\nset yrange [5:500]"),
+    ("gamma of all times", "gamma_0.0001", {"paper": 0.995, "earthquakes": 0.67}, "unset logscale y\nset yrange [0:1.4]"),
+    ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", {"paper": 1.07}, "set yrange [0.8:1.5]"),
+    ("excess of friction", "excess", {}, "set yrange [0:2]"),
+    ("share of time in events", "in_events", {"paper": 1 / 3}, "set yrange [0:0.5]"),
+    ("evidence of a roll-off, 2 ln L", "roll_off_gain", {"paper": 3.84}, "set logscale y\nset yrange [1:300]"),
+)
 
 
 def decides(base, points):
     """Lines over the viscosity, one for each impedance: mean of the packings at length 120, with their deviation, and length 480."""
     with open(points) as lines:
         rows = [row for row in rows_of(lines) if row["point"].startswith("d_") and row["stopped"] == "no" and float(row["memory"]) == MEMORY]
-    script = "set multiplot layout 2,2\nset logscale x\nset xrange [3e-4:0.08]\nset xlabel 'viscosity'\nset datafile separator\n"
     impedances = sorted({row["impedance"] for row in rows}, key=float)
-    for n, (label, key, paper, how) in enumerate(
-        (("mean time between events", "mean_time_0.0001", 15.2, "set logscale y\nset yrange [0.1:500]\nset key bottom right"),
-         ("gamma of all times", "gamma_0.0001", 0.995, "unset logscale y\nset autoscale y"),
-         ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", 1.07, ""), ("excess of friction, events of 10^{-3} to 0.1", "excess", None, ""))):
-        lines, data = [f"{paper} w l dt 2 lc rgb '#888888' t 'paper'"] if paper else [], ""
-        for colour, impedance in zip((2, 8, 6), impedances):
-            for length, point in (("120", 7), ("480", 6)):
-                at = {}
-                for row in rows:
-                    if row["impedance"] == impedance and row["length"] == length and row[key]:
-                        at.setdefault(float(row["viscosity"]), []).append(float(row[key]))
-                if at:
-                    lines.append(
-                        f"'-' w yerrorlines lc {colour} pt {point} {'dt 3 ' if length == '480' else ''}t 'impedance {impedance}, length {length}'")
-                    data += "".join(f"{x:g} {np.mean(y):.5g} {np.std(y, ddof=1) if len(y) > 1 else 0:.5g}\n" for x, y in sorted(at.items())) + "e\n"
-        script += f"{how}\n{'set' if n == 0 else 'unset'} key\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}"
-    draw(base, script + "unset multiplot", 1100, 760)
+    styles = [(impedance, length, f"lc {colour} pt {point} dt {1 if length == '120' else 3}")
+              for impedance, colour in zip(impedances, (2, 8, 6)) for length, point in (("120", 7), ("480", 6))]
+    printed = "dt 2 lc rgb '#888888'", "dt 4 lc 3"
+    script = """set multiplot layout 2,3 margins 0.065,0.99,0.2,0.98 spacing 0.08,0.12
+set logscale x
+set xrange [3e-4:0.08]
+set xlabel 'viscosity'
+set datafile separator
+"""
+    for n, (label, key, given, how) in enumerate(PANELS):
+        lines, data = [f"{value:g} w l {printed[name == 'earthquakes']} notitle" for name, value in given.items()], ""
+        for impedance, length, style in styles:
+            at = {}
+            for row in rows:
+                if row["impedance"] == impedance and row["length"] == length and row[key]:
+                    at.setdefault(float(row["viscosity"]), []).append(float(row[key]))
+            if at:
+                lines.append(f"'-' w yerrorlines {style} notitle")
+                data += "".join(f"{x:g} {np.mean(y):.5g} {np.std(y, ddof=1) if len(y) > 1 else 0:.5g}\n" for x, y in sorted(at.items())) + "e\n"
+        if n == 0:
+            script += "set key at screen 0.5,0.005 center bottom vertical maxrows 2 Left reverse samplen 3\n"
+            lines += [f"keyentry w yerrorlines {style} t 'impedance {impedance}, length {length}'" for impedance, length, style in styles]
+            lines += [f"keyentry w l {line} t '{name}'" for line, name in zip(printed, ("paper", "earthquakes"))]
+        script += f"{how}\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}unset key\n"
+    draw(base, script + "unset multiplot", 1400, 860)
 
 
 def quality(output, *runs):
-    """Decay of PE's amplitude in stretches of two periods, until it is less than 0.3 of the first one, before waves that nothing damps are left."""
-    rows, length = [], 2 * RINGING
+    """Decay of PE's amplitude in periods, until it is less than 0.3 of the first one, before waves that nothing damps are left."""
+    rows, length = [], RINGING
     for run in runs:
         series = lsm.read_series(f"{run}.pe.bin")
         time, n = series["time"], int(length / (series["time"][1] - series["time"][0]))
@@ -475,12 +492,12 @@ def quality(output, *runs):
         x = np.arange(n) - 0.5 * (n - 1)
         slopes = stretches @ x / (x @ x)
         amplitude = np.std(stretches - np.outer(slopes, x), axis=1)
-        last = next((k for k, a in enumerate(amplitude) if a < 0.3 * amplitude[0]), len(amplitude))
+        last = max(2, next((k for k, a in enumerate(amplitude) if a < 0.3 * amplitude[0]), len(amplitude)))
         rate = -np.polyfit(length * np.arange(last), np.log(amplitude[:last]), 1)[0]
         rows.append(
             dict(viscosity=float(series.header["viscosity"]), impedance=float(series.header["impedance"]), first=amplitude[0], second=amplitude[1],
                  fourth=amplitude[3], stretches=last, rate=rate, quality=np.pi / (RINGING * rate)))
-    comment = "Glued blocks: amplitude of PE in stretches of 66 time units, rate at which it decays in so many, quality factor at a period of 33"
+    comment = "Glued blocks: amplitude of PE in periods of 33 time units, rate at which it decays in so many, quality factor at a period of 33"
     write_table(output, [f"{comment} (slip_or_exchange.py quality)"], rows)
 
 

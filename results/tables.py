@@ -508,20 +508,24 @@ def kinetic_table():
 
 
 def width_table():
-    """Blocks of other widths, and plates of other velocities, packing by packing."""
+    """Blocks of other widths and masses, plates of other velocities and in place, packing by packing."""
     rows, keys = [row for row in read(DAMPING / "points.csv") if row["memory"] == "1"], {"one event in": "mean_time_0.0001"}
-    rows = [row for row in rows if row["point"].startswith(("w_120", "v_120", "d_120_5e-4_0_"))]
-    groups = grouped(sorted(rows, key=lambda row: (number(row, "velocity"), number(row, "width"), row["seed"])), lambda row:
-                     (row["width"], row["velocity"]))
+    rows = [row for row in rows if row["point"].startswith(("w_120", "v_120", "d_120_5e-4_0_", "r3_120", "position_120"))]
+
+    def changed(row):
+        return ", masses r^3" * (row["mass"] == "r3") + ", plates in place" * (row["hold"] == "position")
+
+    rows.sort(key=lambda row: (changed(row), number(row, "velocity"), number(row, "width"), row["seed"]))
+    groups = grouped(rows, lambda row: f"{row['width']}, {row['velocity']}{changed(row)}")
     keys |= {"B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "from": "begin"}
     return table(["width, velocity of the plates", *keys],
-                 [[", ".join(group), *(over(rows, key) for key in keys.values())] for group, rows in groups.items()])
+                 [[name, *(over(rows, key) for key in keys.values())] for name, rows in groups.items()])
 
 
 def quality_table():
     """How fast glued blocks stop ringing."""
     columns = {"viscosity, impedance": lambda row: f"{float(row['viscosity']):g}, {float(row['impedance']):g}"}
-    columns |= {"amplitude in the first 66 time units": "first", "second": "second", "fourth": "fourth", "Q": "quality"}
+    columns |= {"amplitude in the first 33 time units": "first", "second": "second", "fourth": "fourth", "Q": "quality"}
     ringing = 2 * math.pi / 33
     columns |= {"by its viscosity": lambda row: shown(ringing / float(row["viscosity"])) if float(row["viscosity"]) else "-"}
     return study_table("damping/quality.csv", columns)
@@ -599,7 +603,7 @@ def surrogates_table():
 def switched_table():
     groups = grouped(read(DAMPING / "switched.csv"), lambda row: row["run"])
     return table(["from then on, time units after it", *(str(1000 * n) for n in range(5))],
-                 [[name.replace("_", " "), *(row["events"] for row in rows[:5])] for name, rows in groups.items()])
+                 [[f"switched {name.replace('_', ', packing ')}", *(row["events"] for row in rows)] for name, rows in groups.items()])
 
 
 # ---- calibration
@@ -715,11 +719,11 @@ def slider_table():
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
     head = [
-        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})", "paper", "here",
+        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})", "paper (our tolerance)", "here",
         "agrees at"
     ]
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
-    return table(head, [blocks] + [[one.name, one.text, ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
+    return table(head, [blocks] + [[one.name, f"{one.text} ({tolerance_of(one)})", ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
                                    for one, n in zip(statements, met)])
 
 

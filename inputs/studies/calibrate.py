@@ -71,7 +71,7 @@ def swings(row):
 
 
 def memories(row):
-    """Mean inter-event time in memories of the picker, which are 100 steps, and thus independent of the unit of time."""
+    """Mean inter-event time in memories of the picker (the paper: 3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps)."""
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
 
@@ -127,8 +127,7 @@ STATEMENTS = (
     Statement("exponent", "sizes go as s^-1.07 from 1e-4 over three decades: exponent", of("exponent_1e-4:1e-1"), 1.07, 1.07, 0.07),
     Statement("decades", "so in each of these decades (no second population): rms distance of their exponents from 1.07", decades, 0, 0, 0.3),
     Statement("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", of("gamma_0.0001"), 0.995, 0.995, 0.1),
-    Statement("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next", memories, 12.5,
-              100, 0.3, True),
+    Statement("rate", "mean time between events, in memories of the picker: 12.5 to 100", memories, 12.5, 100, 0.3, True),
     Statement("B", "B 15.21 time units", of("B_0.0001"), 15.21, 15.21, 0.2, True),
     Statement("stick-slip", "PE rises while the fault is locked: share of the time in which it falls, below a third", of("in_events"), -ANY, 0.33,
               0.03),
@@ -174,7 +173,7 @@ SLIDER_STATEMENTS = (
     Statement("small", "exponent 0.5 below size 1", of("exponent_1e-2:1"), 0.5, 0.5, 0.1),
     Statement("large", "exponent 1.0 above", of("exponent_1:1e2"), 1, 1, 0.1),
     Statement("gamma", "0.0", of("gamma"), 0, 0, 0.1),
-    Statement("B", "100 (a factor of 2)", of("B"), 100, 100, math.log(2), True),
+    Statement("B", "100", of("B"), 100, 100, math.log(2), True),
     Statement("C", "0.25", of("C"), 0.25, 0.25, 0.05),
 )
 

@@ -118,7 +118,7 @@ def density_figure(catalogues, ending, column):
     if column == "slip_moment" and limit > min(x):
         curves.append(f"'+' using ({limit}):({min(y)}):(0):({max(y) - min(y)}) every ::::0 with vectors nohead lc rgb '#777777' lw 1.6 dt (6,4) "
                       "title 'detection limit: one bin in one interval'")
-    script = KEY + axis("x", unit, min(x), max(x), True) + axis("y", f"Ruptures per time, fault length and {what}", min(y), max(y), True)
+    script = KEY + axis("x", unit, min(x), max(x), True) + axis("y", f"Ruptures / (time, fault length, {what})", min(y), max(y), True)
     return Figure(ending, [f"ruptures per time, length of the fault and {what}; errors: Poisson"],
                   "curve,length,bin_lo,bin_hi,centre,count,density,error,label", rows,
                   f"{script}row(k) = $1 == k && $6 > 0 ? $5 : NaN\nplot {', '.join(curves)}", (900, 530 + 23 * len(catalogues)))
