@@ -7,6 +7,7 @@ slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
 slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
+slip_or_exchange.py places OUT.csv RUN...           whether events of three steps or less sit at one place
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
 slip_or_exchange.py quality OUT.csv RUN...          how fast blocks that were glued together stop ringing, with their quality factor
 slip_or_exchange.py kinetic OUT.csv RUN...          mean kinetic energy in each 2000 time units, of the RUN.energy.txt of extra=fault_energy
@@ -340,12 +341,28 @@ def energies(postproc, output, *runs):
         series, beside = lsm.read_series(f"{run}.pe.bin"), np.loadtxt(f"{run}.energy.txt")
         head = lsm.read_catalogue(f"{run}.catalogue.csv").header
         at = np.searchsorted(series["step"], beside[:, 0])
-        kept = (at < len(series)) & (beside[:, 0] >= series["step"][0])
+        kept = (at < len(series)) & (beside[:, 0] >= series["step"][np.searchsorted(series["time"], LOADING)])
         pe, (step, kinetic, approach, _) = np.asarray(series["pe"][at[kept]]), beside[kept].T
         load, dt = -float(head["stress"]) * float(head["length"]) * approach, float(series.header["dt"]) * (step[1] - step[0])
         for name, energy in (("springs", pe), ("springs and load", pe + load), ("springs, load and motion", pe + load + kinetic)):
             rows.append(dict(run=Path(run).name, energy=name, time=dt * (len(pe) - 1), **numbers(postproc, energy, dt)))
     write_table(output, [f"Events >= 1e-4 of sums of energies, memory {MEMORY}; load: stress x length x distance of the plates"], rows)
+
+
+def places(output, *runs):
+    """Do events of three steps or less sit at one place? Where the fault slips farthest around them, and around as many random times."""
+    rows = []
+    for run in runs:
+        history, catalogue = History(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
+        kept = recorded(catalogue, history, LOADING)
+        begin, end, around = kept["step_start"].astype(float), kept["step_end"].astype(float), 0.3 / history.dt
+        brief = 0.5 * (begin + end)[end - begin <= 3]
+        anywhen = np.random.default_rng(1).uniform((LOADING - history.offset) / history.dt, history.steps[-1] - around, len(brief))
+        shares = [
+            np.bincount(np.argmax(history.slipped(at + around) - history.slipped(at - around), axis=1)).max() / len(brief) for at in (brief, anywhen)
+        ]
+        rows.append(dict(run=Path(run).name, events=len(kept), brief=len(brief), commonest=shares[0], at_random_times=shares[1]))
+    write_table(output, ["Events >= 1e-4 of three steps or less: share of them at the place where most are (slip_or_exchange.py places)"], rows)
 
 
 def switched(output, *runs):
@@ -455,8 +472,8 @@ def decides(base, points):
     with open(points) as lines:
         rows = [row for row in rows_of(lines) if row["point"].startswith("d_") and row["stopped"] == "no" and float(row["memory"]) == MEMORY]
     impedances = sorted({row["impedance"] for row in rows}, key=float)
-    styles = [(impedance, length, f"lc {colour} pt {point} dt {1 if length == '120' else 3}")
-              for impedance, colour in zip(impedances, (2, 8, 6)) for length, point in (("120", 7), ("480", 6))]
+    styles = [(impedance, length, f"lc {colour} pt {point} dt {1 if length == '120' else 3}") for impedance, colour in zip(impedances, (2, 8, 6))
+              for length, point in (("120", 7), ("480", 6))]
     printed = "dt 2 lc rgb '#888888'", "dt 4 lc 3"
     script = """set multiplot layout 2,3 margins 0.065,0.99,0.2,0.98 spacing 0.08,0.12
 set logscale x
@@ -503,7 +520,7 @@ def quality(output, *runs):
 
 if __name__ == "__main__":
     commands = dict(quality=quality, kinetic=kinetic, motion=motion, decides=decides, events=events, kinds=kinds, rates=rates, surrogates=surrogates,
-                    energies=energies, switched=switched, figure=figure)
+                    energies=energies, places=places, switched=switched, figure=figure)
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     try:

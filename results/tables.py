@@ -469,16 +469,18 @@ def in_window(name, begin, end, folder=DAMPING):
 
 
 def half_step_table():
-    """The same with half the time step, in the same time; at length 480 both from the same state on."""
+    """The same with shorter time steps, in the same time; at length 480 of the hardly damped fault from the same state on."""
     out, first, second = [], ("hardly damped, 120", calibrate.LOADING, 14700), ("hardly damped, 480", 37300, HALF_STEP_UNTIL)
-    slip = "preset slip, 120", calibrate.LOADING, 15000, SLIP
-    for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("fault_480_4", second), ("half_480_4", second),
-                                  ("fault_120_4", slip), ("half_120_4", slip)):
+    slip = [(f"preset slip, {length}", calibrate.LOADING, 15000, SLIP) for length in (120, 480)]
+    keys = "mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"
+    for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("t_120_0_0.0075_4", first), ("fault_480_4", second),
+                                  ("half_480_4", second), ("fault_120_4", slip[0]), ("half_120_4", slip[0]), ("fault_480_4", slip[1]), ("half_480_4",
+                                                                                                                                        slip[1])):
         row, = in_window(name, *where)
-        out.append([
-            f"{fault}, {float(row['dt']):g}", row["events_0.0001"],
-            *(of(row, key) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"))
-        ])
+        out.append([f"{fault}, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
+    for row in sorted(read(DAMPING / "points.csv"), key=lambda row: -number(row, "dt")):
+        if row["point"].startswith("k_") and row["memory"] == "1":
+            out.append([f"kt 0.6, 120, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
     return table(["fault, length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
 
 
@@ -500,11 +502,17 @@ def motion_table():
 
 
 def kinetic_table():
-    """Kinetic energy in stretches of time, for each retardation of links."""
-    groups = grouped(read(DAMPING / "kinetic.csv"), lambda row: f"{float(row['run'].split('_')[2]):g}")
-    begins = [row["begin"] for row in next(iter(groups.values()))]
-    return table(["kinetic energy; from time, on the mean of 2000", *(f"retardation {name}" for name in groups)],
-                 [[begin, *(f"{number(rows[n], 'kinetic'):.2g}" for rows in groups.values())] for n, begin in enumerate(begins)])
+    """Kinetic energy in stretches of time, for each retardation of links, width and preset, divided by the width in units of 30."""
+    columns = {"e_120_paper_4": "preset paper", "t_120_1e-3_0.03_4": "retardation 0.001", "t_120_4e-3_0.03_4": "0.004", "e_120_30_1": "width 30"}
+    columns |= {"e_120_60_1": "60", "e_120_120_1": "120", "e_120_slip_4": "preset slip", "e_120_statistics_1": "default"}
+    found = {(row["run"], int(row["begin"])): number(row, "kinetic") for row in read(DAMPING / "kinetic.csv")}
+    widths = {"e_120_60_1": 60, "e_120_120_1": 120}
+    begins = [begin for begin in (*range(0, 14000, 2000), 16000, 20000, 28000, 36000) if any(at == begin for _, at in found)]
+
+    def text(run, begin):
+        return f"{found[run, begin] * 30 / widths.get(run, 30):.2g}" if (run, begin) in found else "-"
+
+    return table(["from time, on the mean of 2000", *columns.values()], [[str(begin), *(text(run, begin) for run in columns)] for begin in begins])
 
 
 def width_table():
@@ -518,8 +526,7 @@ def width_table():
     rows.sort(key=lambda row: (changed(row), number(row, "velocity"), number(row, "width"), row["seed"]))
     groups = grouped(rows, lambda row: f"{row['width']}, {row['velocity']}{changed(row)}")
     keys |= {"B of all times": "B_0.0001", "gamma of all times": "gamma_0.0001", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "from": "begin"}
-    return table(["width, velocity of the plates", *keys],
-                 [[name, *(over(rows, key) for key in keys.values())] for name, rows in groups.items()])
+    return table(["width, velocity of the plates", *keys], [[name, *(over(rows, key) for key in keys.values())] for name, rows in groups.items()])
 
 
 def quality_table():
@@ -533,9 +540,9 @@ def quality_table():
 
 def crossing_table():
     """Events that begin while waves of an earlier, larger one cross the blocks."""
-    out, crossing, kinds = [], 30 / calibrate.WAVE_SPEED["r2"], (("hardly damped", DAMPING, "4"), ("damped, plates absorb", CAMPAIGN, "1"))
-    for name, folder, packing in kinds:
-        for length in ("120", "240", "480", "945"):
+    out, crossing = [], 30 / calibrate.WAVE_SPEED["r2"]
+    for name, folder, packing in (("hardly damped", DAMPING, "4"), ("preset slip", SLIP, "4"), ("damped, plates absorb", CAMPAIGN, "1")):
+        for length in ("120", "240", "480", "945", "1890"):
             found = catalogues.lsm.read_catalogue(folder / f"fault_{length}_{packing}.catalogue.csv.xz")
             found = found[(found["size"] >= 1e-4) & (found["t_start"] >= calibrate.LOADING)]
             ends, span = found["t_end"][found["size"] >= 1e-2], found["t_end"][-1] - found["t_start"][0]
@@ -567,7 +574,7 @@ def kinds_table():
 def ranks_table():
     """What friction does in the events, how far the place slips that slips farthest, and whether the slip lies together."""
     return of_kinds(lambda row: ", ".join(f"{number(row, key):.2f}" for key in ("friction", "rank", "together")),
-                    lambda row: row["run"].startswith("damped") or row["seed"] == "4" and row["length"] in ("120", "480", "1890"))
+                    lambda row: row["run"].startswith("damped") or row["seed"] == "4" and row["length"] in ("120", "480", "945", "1890"))
 
 
 def apart_table():
@@ -587,7 +594,7 @@ def apart_table():
 
 def energies_table():
     keys = {"events": lambda row: row["events"], "one in": "one_in", "exponent": "exponent", "gamma of all times": "gamma"}
-    names = {"damped": "damped, plates absorb", "hardly": "hardly damped"}
+    names = {"e_120_statistics_1": "damped, plates absorb", "e_120_paper_4": "hardly damped", "e_120_slip_4": "preset slip"}
     return study_table("damping/energies.csv", {"fault": lambda row: names[row["run"]], "drops of": lambda row: row["energy"]} | keys)
 
 
@@ -597,7 +604,7 @@ def surrogates_table():
         "by its spectrum": "by_spectrum"
     }
     rows = [row for folder in JUDGED for row in read(folder / "surrogates.csv")]
-    return study_table("", columns | {"exponent": "exponent", "gamma of all times": "gamma"}, rows)
+    return study_table("", columns | {"exponent": "exponent", "gamma, B of all times": lambda row: f"{of(row, 'gamma')}, {of(row, 'B')}"}, rows)
 
 
 def switched_table():
@@ -719,12 +726,13 @@ def slider_table():
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
     head = [
-        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})", "paper (our tolerance)", "here",
-        "agrees at"
+        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})",
+        "paper (our tolerance)", "here", "agrees at"
     ]
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
-    return table(head, [blocks] + [[one.name, f"{one.text} ({tolerance_of(one)})", ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
-                                   for one, n in zip(statements, met)])
+    return table(head, [blocks] +
+                 [[one.name, f"{one.text} ({tolerance_of(one)})", ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
+                  for one, n in zip(statements, met)])
 
 
 def slider_velocity_table():

@@ -407,6 +407,17 @@ class Surrogate:
         return {one.name: self.fits[one.name].predict(at, return_std=True) for one in self.statements}
 
 
+def likelihood(predicted, statements):
+    """Logarithm of the likelihood of the numbers that are predicted at one length."""
+    import numpy as np
+    log = 0.0
+    for one in statements:
+        (mean, error), (low, high) = predicted[one.name], one.interval()
+        off, tolerance = np.maximum(0.0, np.maximum(low - mean, mean - high)), np.hypot(one.tolerance, error)
+        log = log - 0.5 * (off / tolerance)**2 - np.log(tolerance / one.tolerance)
+    return log
+
+
 def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
     """(cube, memory, settings, predictions at the two lengths, logarithm of the likelihood) of samples of the prior, and the surrogate."""
     import numpy as np
@@ -419,11 +430,7 @@ def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
     for length in ("120", "480"):
         at = np.array([coordinates({"impedance": "", **one, "memory": m, "length": length}) for one, m in zip(words, memory)])
         found[length] = surrogate.predict(at)
-        for one in wanted or printed(statements):
-            mean, error = found[length][one.name]
-            low, high = one.interval()
-            off, tolerance = np.maximum(0.0, np.maximum(low - mean, mean - high)), np.hypot(one.tolerance, error)
-            log += -0.5 * (off / tolerance)**2 - np.log(tolerance / one.tolerance)
+        log += likelihood(found[length], wanted or printed(statements))
         log += np.array([-0.5 * STATEMENTS_BY_NAME["waves"].deviation({"mass": one.get("mass", "r2")})**2 for one in words])
     for name, tolerance in (("B", math.log(1.5)), ("gamma", 0.2)):  # one fit for all lengths
         if name not in surrogate.fits:
@@ -483,7 +490,17 @@ def posterior(path, base):
                for key in (*UNPRINTED_KEYS,)}, "memory": f"{memory[n]:.3g}", **{key: f"{value:.4g}"
                                                                                 for key, value in predicted.items()}
         })
-    write(f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480", out)
+    stress = np.array([float(one["stress"]) for one in words])
+
+    def middle(log):
+        order, weight = np.argsort(stress), np.exp(log - log.max())
+        return f"{stress[order][np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())]:.3g}"
+
+    used = [one for one in printed() if one.name in surrogate.fits]
+    medians = ", ".join(f"at {length} {middle(likelihood(predicted, used))}" for length, predicted in found.items())
+    write(
+        f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
+        f" Median stress of the prior that one length alone makes likely: {medians}", out)
     lines = []
     for one in STATEMENTS:
         line = {"statement": one.name}
