@@ -15,7 +15,7 @@ slip_or_exchange.py motion OUT.csv RUN              kinetic energy by period and
 slip_or_exchange.py figure OUT RUN FROM TO...   a stretch of each run, of preset paper, preset slip and the default: OUT.png and OUT.svg
 slip_or_exchange.py decides OUT POINTS.csv          numbers over viscosity and impedance, of calibrate.py collect: OUT.png and OUT.svg
 
-RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
+RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes, FOLDER/fault in a study; energies and figure need extra=fault_energy as well.
 For each event:
   excess   frictional work within it, less what friction does in as much time between events, over its size, as in
            `postproc --where "excess > 0.5"`. 1: friction takes up what the springs lose; 0: it does no more than between events, so
@@ -46,6 +46,11 @@ STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
 DECADES = ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1), (1e-1, np.inf))
 MEMORY = 1.0  # of the picker, for sums of energies; that of preset paper
+
+
+def name_of(run):
+    """Name of a run: of its folder in a study."""
+    return Path(run).resolve().parent.name if Path(run).name == "fault" else Path(run).name
 
 
 class History:
@@ -331,7 +336,7 @@ def surrogates(postproc, output, *runs):
         if viscosity > 0:
             others["oscillator"] = with_phases(pe, rng, oscillator(len(pe) - 1, dt, viscosity))
         for name, other in others.items():
-            rows.append(dict(run=Path(run).name, series=name, **numbers(postproc, other, dt, memory), by_spectrum=mean_return(other, dt, memory)))
+            rows.append(dict(run=name_of(run), series=name, **numbers(postproc, other, dt, memory), by_spectrum=mean_return(other, dt, memory)))
     write_table(output, ["Events >= 1e-4, memory of the catalogue; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
 
 
@@ -345,7 +350,7 @@ def energies(postproc, output, *runs):
         pe, (step, kinetic, approach, _) = np.asarray(series["pe"][at[kept]]), beside[kept].T
         load, dt = -float(head["stress"]) * float(head["length"]) * approach, float(series.header["dt"]) * (step[1] - step[0])
         for name, energy in (("springs", pe), ("springs and load", pe + load), ("springs, load and motion", pe + load + kinetic)):
-            rows.append(dict(run=Path(run).name, energy=name, time=dt * (len(pe) - 1), **numbers(postproc, energy, dt)))
+            rows.append(dict(run=name_of(run), energy=name, time=dt * (len(pe) - 1), **numbers(postproc, energy, dt)))
     write_table(output, [f"Events >= 1e-4 of sums of energies, memory {MEMORY}; load: stress x length x distance of the plates"], rows)
 
 
@@ -361,7 +366,7 @@ def places(output, *runs):
         shares = [
             np.bincount(np.argmax(history.slipped(at + around) - history.slipped(at - around), axis=1)).max() / len(brief) for at in (brief, anywhen)
         ]
-        rows.append(dict(run=Path(run).name, events=len(kept), brief=len(brief), commonest=shares[0], at_random_times=shares[1]))
+        rows.append(dict(run=name_of(run), events=len(kept), brief=len(brief), commonest=shares[0], at_random_times=shares[1]))
     write_table(output, ["Events >= 1e-4 of three steps or less: share of them at the place where most are (slip_or_exchange.py places)"], rows)
 
 
@@ -371,7 +376,7 @@ def switched(output, *runs):
         found, time = lsm.read_catalogue(f"{run}.catalogue.csv"), lsm.read_series(f"{run}.pe.bin")["time"]
         edges = np.arange(time[0], time[-1], 1000.0)
         counts = np.histogram(found["t_start"][found["size"] >= 1e-4], edges)[0]
-        rows += [dict(run=Path(run).name, viscosity=found.header["viscosity"], begin=1000 * n, events=count) for n, count in enumerate(counts)]
+        rows += [dict(run=name_of(run), viscosity=found.header["viscosity"], begin=1000 * n, events=count) for n, count in enumerate(counts)]
     write_table(output, ["Events >= 1e-4 in 1000 time units from `begin` after the damping was changed"], rows)
 
 
@@ -383,7 +388,7 @@ def kinetic(output, *runs):
         for begin in np.arange(0, time[-1] - 1999, 2000.0):
             seen = (time >= begin) & (time < begin + 2000)
             if seen.any():
-                rows.append(dict(run=Path(run).name, begin=begin, kinetic=beside[seen, 1].mean()))
+                rows.append(dict(run=name_of(run), begin=begin, kinetic=beside[seen, 1].mean()))
     write_table(output, ["Mean kinetic energy in 2000 time units from `begin` (slip_or_exchange.py kinetic)"], rows)
 
 

@@ -556,7 +556,7 @@ def figure(rows, samples, base):
                 for v in bins:
                     counts[min(13, max(0, math.floor((v - low) / step)))] += 1
                 middle = [low + (k + 0.5) * step for k in range(14)]
-                script += "unset logscale y\nset yrange [0:*]\nset format y ''\n" + f"set ylabel '{SHOWN[y][0] if j == 0 else ''}'\n"
+                script += "unset logscale y\nset yrange [0:*]\nset format y ''\n" + f"set ylabel '{'share' if j == 0 else ''}'\n"
                 script += "unset ytics\nplot '-' w boxes fs solid 0.6 noborder lc rgb '#d55e00'\n"
                 script += "".join(f"{math.exp(m) if values[x].log else m:.5g} {c}\n" for m, c in zip(middle, counts)) + "e\n"
             else:

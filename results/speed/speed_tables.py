@@ -39,14 +39,14 @@ def speed_peers_table():
     out = []
     for label in dict.fromkeys(label for label, _ in found):
         name, _, native = label.partition(", ")
-        row = [name, "-O2, of Debian" if label == "ESyS-Particle" else "-O3 " + native if native else "-O3"]
+        row = [f"{name}, {'-O2, of Debian' if label == 'ESyS-Particle' else '-O3 ' + native if native else '-O3'}"]
         for ranks in (1, 2):
             at, ours = found.get((label, ranks)), found.get(("ours", ranks))
             row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
             last = at or last
         out.append(row + [f"{middle(last, 'bytes'):.0f}" if middle(last, "bytes") else ""])
     return ([
-        "PE at every step, length 1890", "flags", "million particle-steps/s, 1 rank", "ours (-O3) is faster", "2 ranks", "ours is faster",
+        "PE at every step, length 1890", "million particle-steps/s, 1 rank", "ours (-O3) is faster", "2 ranks", "ours is faster",
         "bytes for a particle, most ranks"
     ], out)
 

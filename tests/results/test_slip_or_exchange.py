@@ -193,6 +193,22 @@ def test_kinetic_energy_in_stretches_of_time(script, work):
     assert [(float(row["begin"]), float(row["kinetic"])) for row in table("kinetic.csv")] == [(0, 1), (2000, 1), (4000, 3), (6000, 3)]
 
 
+def test_brief_events_at_one_place(script, work):
+    """Brief events at one place of ten, as a disc that snaps, which the long ones and random times do not show."""
+    steps = np.arange(9000, 13001)
+    slip = np.random.default_rng(2).uniform(0.0, 1.0, (len(steps), 10))
+    begin, lasting = np.arange(9010, 12990, 20), np.where(np.arange(199) % 2, 2, 8)
+    slip[begin[lasting == 2] - 8999, 4] = 9.0
+    Path("one").mkdir()
+    write_history("one/fault.slip.bin", steps, slip, dt=1.0)
+    write_catalogue("one/fault.catalogue.csv", begin * 1.0, [0.01] * 199, dict(model="lsm", length=10, seed=1), t_end=(begin + lasting) * 1.0,
+                    step_start=begin, step_end=begin + lasting)
+    run(script, "places", "places.csv", "one/fault")
+    row, = table("places.csv")
+    assert (row["run"], row["events"], row["brief"]) == ("one", "199", "99")
+    assert float(row["commonest"]) == 1.0 and float(row["at_random_times"]) < 0.4, row
+
+
 def test_motion_of_two_discs(script, work):
     """A large disc swings with a period of 30 and a small one with 0.75; the kinetic energy of each is known."""
     dt, frames, discs = 0.1, 1200, ((1.0, 30.0, 2.0), (0.11, 0.75, 5.0))  # radius, period, speed
@@ -212,8 +228,8 @@ def test_motion_of_two_discs(script, work):
 
 
 def test_a_figure_over_viscosity_and_impedance(script, work):
-    head = "point,stopped,memory,length,viscosity,impedance,mean_time_0.0001,gamma_0.0001,exponent_1e-4:1e-1,excess\n"
-    Path("points.csv").write_text(head + "".join(f"d_{n},no,1,120,{v},{i},15,1,1.1,0.5\n"
+    head = "point,stopped,memory,length,viscosity,impedance,mean_time_0.0001,gamma_0.0001,exponent_1e-4:1e-1,excess,in_events,roll_off_gain\n"
+    Path("points.csv").write_text(head + "".join(f"d_{n},no,1,120,{v},{i},15,1,1.1,0.5,0.3,{'' if i else 20}\n"
                                                  for n, (v, i) in enumerate((v, i) for v in (1e-3, 1e-2) for i in (0, 0.6))))
     run(script, "decides", "out", "points.csv")
     assert "impedance 0.6, length 120" in Path("out.svg").read_text()
@@ -236,4 +252,4 @@ def test_quality_of_a_damped_oscillation(tmp_path):
     row = dict(zip(*(line.split(",") for line in (tmp_path / "q.csv").read_text().splitlines()[1:3])))
     assert float(row["rate"]) == pytest.approx(1 / 200, rel=0.02)
     assert float(row["quality"]) == pytest.approx(np.pi * 200 / 33, rel=0.02)
-    assert row["stretches"] == "4"  # exp(-66 n / 200) < 0.3 from n = 4 on
+    assert row["stretches"] == "8"  # exp(-33 n / 200) < 0.3 from n = 8 on
