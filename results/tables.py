@@ -160,17 +160,17 @@ def tolerance_of(statement):
     return f"{statement.tolerance:.2g}{' of ln' if statement.log else ''}"
 
 
+@functools.cache
 def slip_shares():
-    """Share of the events of 0.001 to 0.1 that are slip, beyond chance, of each packing: {(preset, length): shares}."""
-    found = {}
+    """Share of the events of 0.001 to 0.1 that are slip, beyond chance, of each packing: {(preset, length): {seed: share}}."""
+    found, shares = {}, {}
     for preset in "preset paper", "preset slip":
         for row in read(PRESETS[preset] / "kinds.csv"):
             if float(row["smallest"]) in (0.001, 0.01):
                 name = "default" if row["run"].startswith("damped") else preset
                 found.setdefault((name, row["length"], row["seed"]), []).append((float(row["events"]), float(row["slip"])))
-    shares = {}
-    for (name, length, _), some in found.items():
-        shares.setdefault((name, length), []).append(sum(n * x for n, x in some) / sum(n for n, _ in some))
+    for (name, length, seed), some in found.items():
+        shares.setdefault((name, length), {})[seed] = sum(n * x for n, x in some) / sum(n for n, _ in some)
     return shares
 
 
@@ -180,7 +180,7 @@ def paper_table():
     for name, folder in PRESETS.items():
         rows = grouped(of_all_times(folder), lambda row: row["length"])
         groups |= {(name, length): rows[length] for length in (("120",) if name == "default" else ("120", "480"))}
-    shares = [spread(slip.get(key, [])) for key in groups]
+    shares = [spread(slip.get(key, {}).values()) for key in groups]
     out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *shares]]
     out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
     return table(["statement of the paper, or † (tolerance)", *map(", ".join, groups)],
@@ -194,7 +194,7 @@ def agreement_table():
     for preset, head in heads.items():
         lengths, folder = ("120", "1890") if preset == "default" else ("120", "240", "480", "945", "1890"), PRESETS[preset]
         rows = grouped(of_all_times(folder), lambda row: row["length"])
-        shares = [f"{100 * statistics.mean(slip[preset, length]):.0f}" for length in lengths if (preset, length) in slip]
+        shares = [f"{100 * statistics.mean(slip[preset, length].values()):.0f}" for length in lengths if (preset, length) in slip]
         out[f"{head}: {', '.join(lengths)}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
             ", ".join(shown(statistics.mean(number(row, key) for row in rows[length])) for length in lengths)
             for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
@@ -378,23 +378,31 @@ def decades_of(row):
     return ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])
 
 
-def of_preset(folder):
+def of_preset(preset):
     """Catalogues of a preset, none of whose packings was used to choose its values."""
-    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}"}
-    columns["exponent 1e-4 to 0.1, distance"] = lambda row: f"{of(row, EXPONENTS['1e-4 to 1e-1'])}, {number(row, 'ks_1e-4:1e-1'):.2g}"
-    columns["in each decade"] = decades_of
-    columns |= {"gamma of all times, above 2.5": lambda row: f"{shown(number(row, 'gamma_0.0001'))}, {shown(number(row, 'gamma_longer'))}"}
-    columns |= {"B of all times": "B_0.0001"}
-    columns |= {"one event in, without those within 0.6": lambda row: f"{shown(number(row, 'mean_time_0.0001'))}, {shown(number(row, 'apart'))}"}
-    return study_table("", columns, of_all_times(folder))
+    shares = slip_shares()
+    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
+    columns |= {"gamma": "gamma_0.0001", "B": "B_0.0001", "one event in": lambda row: shown(number(row, "mean_time_0.0001"))}
+    columns |= {"slip of 0.001 to 0.1, % †": lambda row: f"{100 * shares[preset, row['length']][row['seed']]:.0f}"}
+    return study_table("", columns, of_all_times(PRESETS[preset]))
+
+
+def preset_details_table():
+    """Of the same catalogues: each decade, and what is left without bursts."""
+    rows = [{**row, "fault": name} for folder, name in JUDGED.items() for row in of_all_times(folder)]
+    columns = {"fault, length, packing": lambda row: f"{row['fault']}, {row['length']}, {row['seed']}", "exponent in each decade": decades_of}
+    columns |= {"distance": lambda row: f"{number(row, 'ks_1e-4:1e-1'):.2g}"}
+    columns |= {"gamma of times above 2.5 memories": lambda row: shown(number(row, "gamma_longer"))}
+    columns |= {"one event in, without those within 0.6": lambda row: shown(number(row, "apart"))}
+    return study_table("", columns, rows)
 
 
 def preset_paper_table():
-    return of_preset(DAMPING)
+    return of_preset("preset paper")
 
 
 def preset_slip_table():
-    return of_preset(SLIP)
+    return of_preset("preset slip")
 
 
 def slip_rates_table():
