@@ -479,7 +479,7 @@ def in_window(name, begin, end, folder=DAMPING):
 def half_step_table():
     """The same with shorter time steps, in the same time; at length 480 of the hardly damped fault from the same state on."""
     out, first, second = [], ("hardly damped, 120", calibrate.LOADING, 14700), ("hardly damped, 480", 37300, HALF_STEP_UNTIL)
-    slip = [(f"preset slip, {length}", calibrate.LOADING, 15000, SLIP) for length in (120, 480)]
+    slip = "preset slip, 120", calibrate.LOADING, 15000, SLIP
     keys = "mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"
     for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("t_120_0_0.0075_4", first), ("fault_480_4", second),
                                   ("half_480_4", second), ("fault_120_4", slip[0]), ("half_120_4", slip[0]), ("fault_480_4", slip[1]), ("half_480_4",

@@ -1,13 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Faults of length 120 whose damping changes (results/damping.md), from the values of preset paper on
-# with the time step for catalogues: glued_*, whose contacts never slip and which ring after a jump of
-# the normal stress, for each viscosity and impedance; on_* and off_*, which go on for 5000 time units
-# after a viscosity of 0.05 was switched on or off. Then slip_or_exchange.py quality and switched.
+# Faults of length 120 whose damping changes (results/damping.md), from the values of preset paper
+# on with the time step for catalogues: glued_*, whose contacts never slip and which ring after a
+# jump of the normal stress, for each viscosity and impedance; on_* and off_*, which go on for
+# 5000 time units after a viscosity of 0.05 was switched on or off. Then slip_or_exchange.py
+# quality and switched.
 # usage: damping-states.sh BIN OUT       (BIN: folder of the programs; a minute)
 set -euo pipefail
 [ $# = 2 ] || {
-  sed -n '7s/^# //p' "$0" >&2
+  sed -n '8s/^# //p' "$0" >&2
   exit 2
 }
 inputs=$(cd "$(dirname "$0")/.." && pwd) bin=$(realpath "$1")

@@ -528,4 +528,4 @@ def test_faults_whose_damping_changes(work):
     assert {(call["viscosity"], call["impedance"]) for name, call in named.items() if name.startswith("glued")} == {
         (viscosity, impedance) for viscosity in ("5e-4", "2e-3", "5e-3", "2e-2", "5e-2") for impedance in ("0", "0.1", "0.6")
     }  # yapf: disable
-    run(Program("damping-states.sh", INPUTS / "studies/damping-states.sh"), "bin", status=2)
+    assert run(Program("damping-states.sh", INPUTS / "studies/damping-states.sh"), "bin", status=2).err.startswith("usage: damping-states.sh BIN OUT")
