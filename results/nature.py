@@ -214,7 +214,7 @@ def curves(rows):
             out.append(dict(panel=panel, curve=number, x=x, y=y, error=error, label=name))
 
         if number > 1:
-            add("distance", row["distance"][0], -number, row["distance"][1])
+            add("distance", row["distance"][0], -number, row["distance"][1])  # y: rank among all rows; the picture has fewer
         if row["label"] in seen:
             continue
         seen.add(row["label"])

@@ -6,7 +6,7 @@ slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run 
 slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
 slip_or_exchange.py rates OUT FILE.csv.xz...        how often there is an event, and one that is slip: OUT.csv, OUT.png and OUT.svg
 slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
-slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
+slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs, from 8000 on
 slip_or_exchange.py places OUT.csv RUN...           whether events of three steps or less sit at one place
 slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
 slip_or_exchange.py quality OUT.csv RUN...          how fast blocks that were glued together stop ringing, with their quality factor
@@ -346,7 +346,7 @@ def energies(postproc, output, *runs):
         series, beside = lsm.read_series(f"{run}.pe.bin"), np.loadtxt(f"{run}.energy.txt")
         head = lsm.read_catalogue(f"{run}.catalogue.csv").header
         at = np.searchsorted(series["step"], beside[:, 0])
-        kept = (at < len(series)) & (beside[:, 0] >= series["step"][np.searchsorted(series["time"], LOADING)])
+        kept = (at < len(series)) & (series["time"][np.minimum(at, len(series) - 1)] >= LOADING)
         pe, (step, kinetic, approach, _) = np.asarray(series["pe"][at[kept]]), beside[kept].T
         load, dt = -float(head["stress"]) * float(head["length"]) * approach, float(series.header["dt"]) * (step[1] - step[0])
         for name, energy in (("springs", pe), ("springs and load", pe + load), ("springs, load and motion", pe + load + kinetic)):
@@ -362,9 +362,11 @@ def places(output, *runs):
         kept = recorded(catalogue, history, LOADING)
         begin, end, around = kept["step_start"].astype(float), kept["step_end"].astype(float), 0.3 / history.dt
         brief = 0.5 * (begin + end)[end - begin <= 3]
-        anywhen = np.random.default_rng(1).uniform((LOADING - history.offset) / history.dt, history.steps[-1] - around, len(brief))
+        first = max((LOADING - history.offset) / history.dt, history.steps[0])
+        anywhen = np.random.default_rng(1).uniform(first + around, history.steps[-1] - around, len(brief))
         shares = [
-            np.bincount(np.argmax(history.slipped(at + around) - history.slipped(at - around), axis=1)).max() / len(brief) for at in (brief, anywhen)
+            np.bincount(np.argmax(history.slipped(at + around) - history.slipped(at - around), axis=1)).max() / len(brief) if len(brief) else np.nan
+            for at in (brief, anywhen)
         ]
         rows.append(dict(run=name_of(run), events=len(kept), brief=len(brief), commonest=shares[0], at_random_times=shares[1]))
     write_table(output, ["Events >= 1e-4 of three steps or less: share of them at the place where most are (slip_or_exchange.py places)"], rows)

@@ -157,7 +157,7 @@ def judged(rows, statement):
 
 
 def tolerance_of(statement):
-    return f"{statement.tolerance:.2g}{' of ln' if statement.log else ''}"
+    return f"a factor of {math.exp(statement.tolerance):.3g}" if statement.log else f"{statement.tolerance:.2g}"
 
 
 @functools.cache
@@ -194,8 +194,8 @@ def agreement_table():
     for preset, head in heads.items():
         lengths, folder = ("120", "945") if preset == "default" else ("120", "240", "480", "945", "1890"), PRESETS[preset]
         rows = grouped(of_all_times(folder), lambda row: row["length"])
-        shares = [f"{100 * statistics.mean(slip[preset, length].values()):.0f}" for length in lengths if (preset, length) in slip]
-        out[f"{head}: {', '.join(lengths)}"] = [f"{', '.join(shares)} %{'' if len(shares) == len(lengths) else f' ({lengths[0]})'}"] + [
+        shares = [f"{100 * statistics.mean(slip[preset, length].values()):.0f}" for length in lengths]
+        out[f"{head}: {', '.join(lengths)}"] = [f"{', '.join(shares)} %"] + [
             ", ".join(shown(statistics.mean(number(row, key) for row in rows[length])) for length in lengths)
             for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
         ]
@@ -379,7 +379,7 @@ def decades_of(row):
 
 
 def of_preset(preset):
-    """Catalogues of a preset, none of whose packings was used to choose its values."""
+    """Catalogues of a preset, one by one."""
     shares = slip_shares()
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
     columns |= {"gamma": "gamma_0.0001", "B": "B_0.0001", "one event in": lambda row: shown(number(row, "mean_time_0.0001"))}
@@ -485,9 +485,12 @@ def half_step_table():
                                   ("half_480_4", second), ("fault_120_4", slip), ("half_120_4", slip)):
         row, = in_window(name, *where)
         out.append([f"{fault}, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
-    for row in sorted(read(DAMPING / "points.csv"), key=lambda row: -number(row, "dt")):
-        if row["point"].startswith("k_") and row["memory"] == "1":
-            out.append([f"kt 0.6, 120, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
+    names = {"k_120_0.6_": "kt 0.6", "d_120_5e-4_0.6_2": "impedance 0.6", "f_120_0.6_2": "impedance 0.6", "position_120_2": "plates in place"}
+    names["f_120_position_2"] = "plates in place"
+    points = [(next((name for start, name in names.items() if row["point"].startswith(start)), ""), row) for row in read(DAMPING / "points.csv")]
+    for name, row in sorted(points, key=lambda one: (one[0], -number(one[1], "dt"))):
+        if name and row["memory"] == "1":
+            out.append([f"{name}, 120, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
     return table(["fault, length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
 
 
@@ -617,7 +620,7 @@ def surrogates_table():
 def switched_table():
     groups = grouped(read(DAMPING / "switched.csv"), lambda row: row["run"])
     return table(["from then on, time units after it", *(str(1000 * n) for n in range(5))],
-                 [[f"switched {name.replace('_', ', packing ')}", *(row["events"] for row in rows)] for name, rows in groups.items()])
+                 [[f"switched {name.replace('_', ', packing ')}", *(row["events"] for row in rows[:5])] for name, rows in groups.items()])
 
 
 # ---- calibration

@@ -500,7 +500,7 @@ def posterior(path, base):
     medians = ", ".join(f"at {length} {middle(likelihood(predicted, used))}" for length, predicted in found.items())
     write(
         f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
-        f" Median stress of the prior that one length alone makes likely: {medians}", out)
+        f" Median stress if one length alone is asked for, and no P-wave speed: {medians}", out)
     lines = []
     for one in STATEMENTS:
         line = {"statement": one.name}

@@ -5,7 +5,7 @@
 # jump of the normal stress, for each viscosity and impedance; on_* and off_*, which go on for
 # 5000 time units after a viscosity of 0.05 was switched on or off. Then slip_or_exchange.py
 # quality and switched.
-# usage: damping-states.sh BIN OUT       (BIN: folder of the programs; a minute)
+# usage: damping-states.sh BIN OUT       (BIN: folder of the programs; 3 minutes)
 set -euo pipefail
 [ $# = 2 ] || {
   sed -n '8s/^# //p' "$0" >&2

@@ -200,7 +200,7 @@ def test_brief_events_at_one_place(script, work):
     begin, lasting = np.arange(9010, 12990, 20), np.where(np.arange(199) % 2, 2, 8)
     slip[begin[lasting == 2] - 8999, 4] = 9.0
     Path("one").mkdir()
-    write_history("one/fault.slip.bin", steps, slip, dt=1.0)
+    write_history("one/fault.slip.bin", steps, slip, dt=1.0, time0=9000)
     write_catalogue("one/fault.catalogue.csv", begin * 1.0, [0.01] * 199, dict(model="lsm", length=10, seed=1), t_end=(begin + lasting) * 1.0,
                     step_start=begin, step_end=begin + lasting)
     run(script, "places", "places.csv", "one/fault")

@@ -525,6 +525,7 @@ def test_faults_whose_damping_changes(work):
             assert list(named).index(before["prefix"]) < list(named).index(name)
             changed = float(call["viscosity"]) / float(before.get("viscosity", "inf"))
             assert changed == pytest.approx(100 if name[:3] == "on_" else 0.01 if name[:4] == "off_" else 0), name
+            assert before["impedance"] == "0"
     assert {(call["viscosity"], call["impedance"]) for name, call in named.items() if name.startswith("glued")} == {
         (viscosity, impedance) for viscosity in ("5e-4", "2e-3", "5e-3", "2e-2", "5e-2") for impedance in ("0", "0.1", "0.6")
     }  # yapf: disable
