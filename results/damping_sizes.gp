@@ -67,7 +67,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (1603 events)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (9836 events)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \

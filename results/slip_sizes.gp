@@ -59,19 +59,19 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
      table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 1890 (503 events)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (905 events)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 240 (905 events)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (833 events)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 480 (833 events)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (615 events)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 945 (615 events)", \
+     keyentry with linespoints lt 5 title "fault, length 1890 (503 events)", \
      [0.0001:0.10000000000000001] '+' using 1:(0.37377694390118921*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }

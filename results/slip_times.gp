@@ -57,21 +57,21 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 1 title "fault, length 120 (1405 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 1890 (502 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (904 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 240 (904 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (832 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 480 (832 times)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (614 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 945 (614 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1890 (502 times)", \
      [0.50118723362727224:630.95734448019425] '+' using 1:(0.041845452274784527*$1**(0.096601145539742417)*exp(-$1**(1)/18.884627285700955)) with lines lt 1 dt 3 lw 2 notitle, \
-     [0.19952623149688789:199.52623149688822] '+' using 1:(0.067402598964376545*$1**(-0.078367910782799921)*exp(-$1**(1)/17.665698808542047)) with lines lt 2 dt 3 lw 2 notitle, \
-     [0.2511886431509579:501.18723362727303] '+' using 1:(0.045175410060560181*$1**(0.0018561837019828165)*exp(-$1**(1)/22.032764645779658)) with lines lt 3 dt 3 lw 2 notitle, \
-     [0.31622776601683783:398.10717055349784] '+' using 1:(0.057097614404312776*$1**(-0.11541416919257752)*exp(-$1**(1)/23.29137595957215)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.19952623149688789:199.52623149688822] '+' using 1:(0.068065031593167291*$1**(-0.16867611977066943)*exp(-$1**(1)/21.86009330630964)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.2511886431509579:501.18723362727303] '+' using 1:(0.045175410060560181*$1**(0.0018561837019828165)*exp(-$1**(1)/22.032764645779658)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.31622776601683783:398.10717055349784] '+' using 1:(0.057097614404312776*$1**(-0.11541416919257752)*exp(-$1**(1)/23.29137595957215)) with lines lt 3 dt 3 lw 2 notitle, \
+     [0.19952623149688789:199.52623149688822] '+' using 1:(0.068065031593167291*$1**(-0.16867611977066943)*exp(-$1**(1)/21.86009330630964)) with lines lt 4 dt 3 lw 2 notitle, \
+     [0.19952623149688789:199.52623149688822] '+' using 1:(0.067402598964376545*$1**(-0.078367910782799921)*exp(-$1**(1)/17.665698808542047)) with lines lt 5 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }
