@@ -517,7 +517,7 @@ def kinetic_table():
     columns |= {"e_120_60_1": "60", "e_120_120_1": "120", "e_120_slip_4": "preset slip", "e_120_statistics_1": "default"}
     found = {(row["run"], int(row["begin"])): number(row, "kinetic") for row in read(DAMPING / "kinetic.csv")}
     widths = {"e_120_60_1": 60, "e_120_120_1": 120}
-    begins = [begin for begin in (*range(0, 14000, 2000), 16000, 20000, 28000, 36000) if any(at == begin for _, at in found)]
+    begins = *range(0, 14000, 2000), 16000, 20000, 28000, 36000
 
     def text(run, begin):
         return f"{found[run, begin] * 30 / widths.get(run, 30):.2g}" if (run, begin) in found else "-"
@@ -542,8 +542,8 @@ def width_table():
 def quality_table():
     """How fast glued blocks stop ringing."""
     columns = {"viscosity, impedance": lambda row: f"{float(row['viscosity']):g}, {float(row['impedance']):g}"}
-    columns |= {"amplitude in the first 33 time units": "first", "second": "second", "fourth": "fourth", "Q": "quality"}
-    ringing = 2 * math.pi / 33
+    columns |= {f"amplitude in the first {slip_or_exchange.RINGING:g} time units": "first", "second": "second", "fourth": "fourth", "Q": "quality"}
+    ringing = 2 * math.pi / slip_or_exchange.RINGING
     columns |= {"by its viscosity": lambda row: shown(ringing / float(row["viscosity"])) if float(row["viscosity"]) else "-"}
     return study_table("damping/quality.csv", columns)
 

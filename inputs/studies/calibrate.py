@@ -496,8 +496,7 @@ def posterior(path, base):
         order, weight = np.argsort(stress), np.exp(log - log.max())
         return f"{stress[order][np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())]:.3g}"
 
-    used = [one for one in printed() if one.name in surrogate.fits]
-    medians = ", ".join(f"at {length} {middle(likelihood(predicted, used))}" for length, predicted in found.items())
+    medians = ", ".join(f"at {length} {middle(likelihood(predicted, printed(surrogate.statements)))}" for length, predicted in found.items())
     write(
         f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
         f" Median stress if one length alone is asked for, and no P-wave speed: {medians}", out)
