@@ -98,6 +98,7 @@ for part; do
       [ ! -e regime-map.csv ] || gnuplot -e "table = 'regime-map.csv'" ../inputs/studies/regime-map.gp
       gnuplot accuracy.gp
       gnuplot packing.gp
+      PYTHONPATH=.:../inputs/studies python3 speed/speed_tables.py speed
       gnuplot ../inputs/studies/walk.gp
       rm -f regime-map.svg
       ;;

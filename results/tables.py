@@ -412,8 +412,8 @@ def slip_rates_table():
 
     columns = {"fault, length, packing": lambda row: f"{row['fault']}, {row['length']}, {row['seed']}"}
     for least in ("0.001", "0.01", "0.1"):
-        columns[f">= {least}: one in; slip in %; one that is slip in"] = (
-            lambda row, least=least: f"{shown(number(row, f'all_{least}'))}; {round(100 * number(row, f'share_{least}'))}; {slip_time(row, least)}")
+        columns[f">= {least}: one slip in"] = lambda row, least=least: slip_time(row, least)
+        columns[f"of all >= {least}, %"] = lambda row, least=least: f"{round(100 * number(row, f'share_{least}'))}"
     return study_table("slip_rates.csv", columns)
 
 
@@ -722,10 +722,11 @@ def velocity_table():
             size, (excess, _), cells = found["size"], slip_or_exchange.excess_of(found), []
             for low, high in ((1e-3, 1e-2), (1e-2, 0.1), (0.1, math.inf)):
                 time, share = slip_or_exchange.time_and_share(found, excess, (size >= low) & (size < high))
-                cells.append(f"{shown(time / share)}; {shown(time / (1 - share)) if share < 0.99 else '-'}")
+                cells += [shown(time / share)] + ([shown(time / (1 - share))] if high < 1 else [])
             time, share = slip_or_exchange.time_and_share(found, excess, size >= 1e-4)
-            out.append([f"{length}, {float(found.header['velocity']):g}", f"{shown(time)}; {100 * share:.0f}", *cells])
-    return table(["length, velocity", "all: one in; slip in %", "0.001 to 0.01: one slip in; one other in", "0.01 to 0.1", "above"], out)
+            out.append([f"{length}, {float(found.header['velocity']):g}", shown(time), f"{100 * share:.0f}", *cells])
+    head = ["length, velocity", "all: one in", "slip, %", "0.001 to 0.01: one slip in", "one other in", "0.01 to 0.1: one slip in", "one other in"]
+    return table([*head, "above: one slip in"], out)
 
 
 def slider_table():

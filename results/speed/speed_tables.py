@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of speed.md from timings.csv and slider-modes.csv, as head and rows; tables.py in the folder above writes them into the page."""
+"""Tables of speed.md from timings.csv and slider-modes.csv, as head and rows; tables.py in the folder above writes them into the page.
+
+speed_tables.py BASE: draws them as BASE.png and BASE.svg
+"""
 import functools
 import statistics
+import sys
 from pathlib import Path
 
 from calibrate import read
+from catalogues import draw
+from lsm.drawing import quote
 
 FOLDER = Path(__file__).resolve().parent
 
@@ -65,17 +71,43 @@ def speed_lengths_table():
     return ["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication", "lists"], out
 
 
+CHANGES = ("contacts of all discs", "nothing recorded", "location of events", "energy ledger", "static friction above dynamic", "slip weakening",
+           "velocity weakening", "rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)", "links that can break", "no viscosity",
+           "dashpots of links and contacts", "pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps")
+
+
 def speed_changes_table():
     names = {key[0]: rounds for key, rounds in timings("features").items()}
-    ratio = {label: f"{ratio_of(rounds, names['base of ' + label]):.2f}" for label, rounds in names.items() if "base of " + label in names}
-    changes = [["contacts of all discs", "nothing recorded", "location of events", "energy ledger"],
-               [
-                   "static friction above dynamic", "slip weakening", "velocity weakening", "rate and state (ageing)", "rate and state (slip)",
-                   "no friction (lsm/free)"
-               ], ["links that can break", "no viscosity", "dashpots of links and contacts"],
-               ["pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps"]]
-    return (["one thing changed, length 1890, 2 ranks",
-             "time of a step, ratio"], [["; ".join(change), "; ".join(ratio[label] for label in change)] for change in changes])
+    cells = [(label, f"{ratio_of(names[label], names['base of ' + label]):.2f}") for label in CHANGES]
+    head = ["one thing changed, length 1890, 2 ranks", "time of a step, ratio", *["another", "ratio"] * 3]
+    return head, [sum(cells[k::4], ()) for k in range(4)]
+
+
+def picture(base):
+    """Particle-steps per second of the programs, parts of a step, and what one change costs, from the tables."""
+
+    def rows(lines):
+        return "\n".join([" ".join(quote(cell.replace("`", "")) if k == 0 else cell or "NaN" for k, cell in enumerate(line))
+                          for line in lines] + ["e", ""])
+
+    peers, steps, changes = speed_peers_table()[1], speed_lengths_table()[1], speed_changes_table()[1]
+    changes = sorted((line[k:k + 2] for line in changes for k in range(0, 8, 2)), key=lambda one: float(one[1]))
+    parts = "links", "contacts", "integration, plates, events", "communication"
+    draw(base, "".join([
+        "set datafile separator\nset multiplot\nunset grid\nset grid xtics\nset style fill solid noborder\nset boxwidth 0.7\n",
+        "set lmargin at screen 0.33\nset rmargin at screen 0.56\nset bmargin at screen 0.58\nset tmargin at screen 0.93\n",
+        "set title 'fault of length 1890 beside other programs'\nset xlabel 'million particle-steps/s'\nset logscale x\nset xrange [0.3:200]\n",
+        f"set yrange [-{len(peers)}:1]\nset key left center Left reverse\n",
+        "plot '-' using 2:(-$0):ytic(1) w p lt 1 t '1 rank', '-' using 4:(-$0) w p lt 2 t '2 ranks'\n", rows(peers), rows(peers),
+        "unset logscale\nset lmargin at screen 0.78\nset rmargin at screen 0.99\nset title 'cost of one change, 2 ranks'\n",
+        f"set xlabel 'time of a step, ratio'\nset xrange [0.5:2]\nset yrange [-{len(changes)}:1]\nunset key\nset arrow 1 from 1,graph 0 to 1,graph 1 nohead lt 8 dt 2\n",
+        "plot '-' using ($2 < 2 ? $2 : 1.97):(-$0):ytic(1) w p lt 1, '-' using ($2 < 2 ? NaN : 1.9):(-$0):2 w labels right\n", rows(changes), rows(changes),
+        "unset arrow\nset lmargin at screen 0.33\nset bmargin at screen 0.14\nset tmargin at screen 0.45\nset title 'parts of a step of faults of these lengths, 2 ranks (first four: Zen 3, others: Xeon)'\n",
+        f"set xlabel 'ns for a particle and step'\nset xrange [0:13]\nset yrange [-{len(steps)}:1]\nset key at screen 0.5,0.01 center bottom horizontal samplen 2 Left reverse\nplot ",
+        ", ".join(f"'-' using (0):(-$0):(0):({'+'.join(f'${5 + m}' for m in range(k + 1))}):(-$0-0.35):(-$0+0.35)"
+                  f"{':ytic(1)' if k == 3 else ''} w boxxyerror lt {k + 1} notitle" for k in (3, 2, 1, 0)),
+        *(f", keyentry w boxes lt {k} t '{part}'" for k, part in enumerate(parts, 1)), "\n", rows(steps) * 4, "unset multiplot"
+    ]), 1450, 900)  # yapf: disable
 
 
 def speed_modes_table():
@@ -95,3 +127,6 @@ def speed_modes_table():
 TABLES = {
     "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-lengths": speed_lengths_table, "speed-changes": speed_changes_table
 }
+
+if __name__ == "__main__":
+    picture(*sys.argv[1:])
