@@ -12,12 +12,15 @@ label with their standard errors; those of one catalogue have its own errors.
   gamma, ...     of the generalised gamma density, of `postproc intervals --rescale`
   variation      standard deviation over mean; burstiness: (r - 1) / (r + 1) of it in the form for a finite number of times
   memory         correlation of each time with the next; after_short: mean time after the shortest third
-  before, after  events within a mean time of the largest 2 %, over that of any others
+  before, after  events within a mean time before the start and after the end of the largest 2 %, over that of all others
   b              Aki's, of these magnitudes
 """
 import argparse
+import csv
 import functools
+import lzma
 import math
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -35,10 +38,11 @@ CATALOGUES = [(f"fault {length}", f"campaign/fault_{length}_{{}}.catalogue", 2 i
 CATALOGUES += [(f"ruptures of fault {length}", f"campaign/fault_{length}_{{}}.ruptures", 3) for length in (120, 480, 945)]
 CATALOGUES += [("slider 1928", "catalogues/slider_ours_1928_seed_{}.catalogue", 3),
                ("ruptures of slider 1928", "catalogues/slider_ruptures_1928_seed_{}.catalogue", 3)]
-CATALOGUES += [(f"slider {text}", f"walk/{name}-512_{{}}.catalogue", 2 if name == "slow" else 5)
+CATALOGUES += [(f"slider {text}", f"walk/{name}-512_{{}}.catalogue", 5)
                for text, name in (("springs", "chain"), ("elastic blocks", "bulk"), ("and radiation", "radiating"), ("and roughness", "rough"),
                                   ("and slow plate", "slow"))]
-CATALOGUES += [(f"fault 120 {name}", f"walk/fault-{name}_{{}}.catalogue", 3) for name in ("viscous", "weakening")]
+CATALOGUES += [(f"fault 120 {name}", f"walk/fault-{name}_{{}}.catalogue", 5) for name in ("viscous", "weakening")]
+SUMS = {"3 faults 480 apart": (480, 3), "2 faults 945 apart": (945, 2)}  # of independent faults, as long together as those of 1440 and 1890
 MODELS = {label: [HERE / f"{name.format(n + 1)}.csv.xz" for n in range(many)] for label, name, many in CATALOGUES}
 
 # ---- error of a distance
@@ -84,21 +88,23 @@ def distance_and_error(first, second, replicas):
 # ---- rows
 
 
-def sample_of(starts, sizes, least):
+def sample_of(starts, ends, sizes, least):
     """Times over their mean, magnitudes above the smallest one, and numbers of one catalogue: {name: (value, error)}."""
-    starts, sizes = starts[sizes >= least], sizes[sizes >= least]
+    starts, ends, sizes = (one[sizes >= least] for one in (starts, ends, sizes))
     if not starts[-1] > starts[0]:
         raise ValueError("all events start at the same time")
     times, magnitudes = over_mean(np.diff(starts)), np.log10(sizes / least) / 1.5
     n, r, mean = len(times), np.std(times), np.mean(np.diff(starts))
     up, down = math.sqrt(n + 1), math.sqrt(n - 1)
     short = times[:-1] < np.sort(times)[160 * n // 480]
-    large = np.flatnonzero(sizes >= np.sort(sizes)[::-1][int(LARGE * n)])
-    before = large - np.searchsorted(starts, starts[large] - mean, "right")
-    after = np.searchsorted(starts, starts[large] + mean, "left") - large - 1
+    large = sizes >= np.sort(sizes)[::-1][int(LARGE * n)]
+    number = np.arange(n + 1)
+    near = dict(before=number - np.searchsorted(starts, starts - mean, "right"),
+                after=np.searchsorted(starts, ends + mean, "left") - np.maximum(np.searchsorted(starts, ends, "left"), number + 1))
+    near = {key: np.mean(one[large]) / np.mean(one[~large]) if one[~large].any() else math.nan for key, one in near.items()}
     b = 1 / (math.log(10) * np.mean(magnitudes))
     numbers = dict(variation=r, burstiness=(up * r - down) / ((up - 2) * r + down), memory=np.corrcoef(times[:-1], times[1:])[0, 1],
-                   after_short=np.mean(times[1:][short]), before=np.mean(before), after=np.mean(after))
+                   after_short=np.mean(times[1:][short]), **near)
     numbers = {key: (value, math.nan) for key, value in numbers.items()}
     return times, magnitudes, numbers | {"b": (b, math.log(10) * b**2 * np.std(magnitudes, ddof=1) / math.sqrt(len(magnitudes)))}
 
@@ -125,7 +131,9 @@ def row_of(label, fits, samples, reference, replicas):
         for key, mine, k in (("distance", times, 0), ("size_distance", magnitudes, 1)):
             own[key] = distance_and_error(reference[k], mine, replicas) if reference else (math.nan, math.nan)
         numbers.append(own)
-    row |= {key: mean_and_error(*zip(*(one[key] for one in numbers))) for key in numbers[0]}
+    for key in numbers[0]:
+        values, errors = zip(*(one[key] for one in numbers))
+        row[key] = mean_and_error(values, errors if len(values) != 2 else ())  # of two, half of the difference: both numbers are known
     why = [fit["free"]["degenerate"] for fit in fits if fit["free"]["degenerate"]]
     row |= dict(why=why[-1] if why else "", without_delta=len(why), times=np.concatenate([one[0] for one in samples]),
                 magnitudes=np.concatenate([one[1] for one in samples]))
@@ -138,21 +146,21 @@ def rows_of(postproc, models, sizes=SIZES, magnitudes=MAGNITUDES, begin=LOADING,
         raise ValueError("--threshold 0 has no magnitude, expected a larger size")
     days, above = earthquakes()
     sizes_of = np.array([10**(1.5 * m) for m in above])  # as postproc has them, to the last digit
-    groups = {NATURE: ([(days, sizes_of)], fits_of(postproc, [CALIFORNIA], [f"M{m:g}" for m in magnitudes], "--from", PERIOD[0], "--to",
+    groups = {NATURE: ([(days, days, sizes_of)], fits_of(postproc, [CALIFORNIA], [f"M{m:g}" for m in magnitudes], "--from", PERIOD[0], "--to",
                                                             PERIOD[1]))}  # yapf: disable
     fits = iter(fits_of(postproc, [path for paths in models.values() for path in paths], sizes, "--from", begin))
     for label, paths in models.items():
         some = [events_of(path, begin) for path in paths]
-        groups[label] = [(events["t_start"], events["size"]) for events in some], [next(fits) for _ in paths]
+        groups[label] = [(events["t_start"], events["t_end"], events["size"]) for events in some], [next(fits) for _ in paths]
     rows, reference = [], None
     for label, (catalogues, fits) in groups.items():
         least = [one["threshold"] for one in fits[0]]
-        counts = [np.count_nonzero(catalogues[0][1] >= size) for size in least]
+        counts = [np.count_nonzero(catalogues[0][-1] >= size) for size in least]
         for k, size in enumerate(least):
             # Where the catalogue begins above this smallest size, the next one selects the same events.
             if k + 1 < len(least) and counts[k] == counts[k + 1]:
                 continue
-            used = [n for n, (_, all_sizes) in enumerate(catalogues) if np.count_nonzero(all_sizes >= size) >= FEWEST]
+            used = [n for n, (*_, all_sizes) in enumerate(catalogues) if np.count_nonzero(all_sizes >= size) >= FEWEST]
             if used:
                 samples = [sample_of(*catalogues[n], size) for n in used]
                 rows.append(row_of(label, [fits[n][k] for n in used], samples, reference, replicas))
@@ -292,9 +300,10 @@ def write(rows, base):
     write_table(f"{base}.table.csv", [
         "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of the first row, size_distance: of the magnitudes "
         "above the smallest, over their mean",
-        "after_short: mean time after the shortest third over the mean; before, after: events within a mean time of large ones, over that of any "
-        "others; b: Aki",
-        "errors: from the scatter between catalogues of a label, or for one catalogue its own (distances: blocks of consecutive values resampled)"
+        "after_short: mean time after the shortest third over the mean; before, after: events within a mean time before the start and after the end of "
+        "large ones, over that of all others; b: Aki",
+        "errors: from the scatter between catalogues of a label (of two, half of their difference), or for one catalogue its own (distances: blocks of "
+        "consecutive values resampled)"
     ], table(rows))
     write_table(f"{base}.table1.csv", [
         "f(theta) = C theta^(gamma-1) exp(-theta^delta / B)",
@@ -306,9 +315,26 @@ def write(rows, base):
     ], curves(rows))
 
 
+def together(paths, out):
+    """A catalogue of the events of several faults, each at its time, up to the end of the shortest. As those of ruptures, they overlap."""
+    tables = []
+    for path in paths:
+        with lzma.open(path, "rt") as file:
+            lines = file.read().splitlines()
+        head = [line for line in lines if line.startswith("#")]
+        tables.append(list(csv.DictReader(lines[len(head):])))
+    end = min(float(table[-1]["t_start"]) for table in tables)
+    events = sorted((row for row in sum(tables, []) if float(row["t_start"]) <= end), key=lambda row: (float(row["t_end"]), int(row["step_end"])))
+    rows = [",".join((row | {"event_id": str(number)}).values()) for number, row in enumerate(events)]
+    out.write_text("\n".join([*head, "# events = ruptures", ",".join(events[0]), *rows, ""]))
+    return [out]
+
+
 def main(postproc, catalogue, threshold, begin, json_file):
     if catalogue is None:
-        rows = rows_of(postproc, MODELS)
+        with tempfile.TemporaryDirectory() as folder:
+            sums = {label: together(MODELS[f"fault {length}"][:many], Path(folder) / f"{length}.csv") for label, (length, many) in SUMS.items()}
+            rows = rows_of(postproc, MODELS | sums)
         write(rows, HERE / "nature")
         picture(rows, HERE / "nature")
     else:

@@ -861,19 +861,21 @@ def named(label, size):
     return f"{label}, M >= {math.log10(float(size)) / 1.5:.3g}" if label == "Southern California" else f"{label}, >= {float(size):g}"
 
 
+def one_or_both(row, key, two):
+    """A number, or those of two catalogues: their error is half of their difference."""
+    value, half = number(row, key), number(row, f"{key}_error")
+    return spread([value - half, value + half]) if two and half > 0 else of(row, key)
+
+
 def ranking_table():
     """Earthquakes, and for each model the smallest size with which it is nearest to them."""
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
         rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
 
-    def after(row):
-        """Of two catalogues both numbers: their standard error is half of the difference."""
-        mean, half = number(row, "after"), number(row, "after_error")
-        return f"{shown(mean - half)}, {shown(mean + half)}" if row["catalogues"] == "2" and half > 0 else of(row, "after")
-
     columns = {"": lambda row: named(row["label"], row["threshold"]), "catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
-    columns |= {"distance": "distance", "gamma": "gamma", "after large events": after, "b-value": "b"}
+    keys = {"distance": "distance", "gamma": "gamma", "after large events": "after", "b-value": "b"}
+    columns |= {name: lambda row, key=key: one_or_both(row, key, row["catalogues"] == "2") for name, key in keys.items()}
     return study_table("", columns, rows.values())
 
 
@@ -885,8 +887,8 @@ def table1_table():
         name = f"{row['source']} (printed)" if printed else named(row["source"], row["threshold"])
         if printed or not row["degenerate"] and (row["source"].split()[0], row["threshold"]) in (("Southern", "1000"), ("fault", "0.0001"),
                                                                                                  ("slider", "1")):
-            cell = "1 (held)" if "held" in row["method"] else of(row, "delta")
-            columns.setdefault(name, {key: row[key] if printed else cell if key == "delta" else of(row, key) for key in ("gamma", "delta", "B", "C")})
+            cells = {key: row[key] if printed else one_or_both(row, key, "2 catalogues" in row["method"]) for key in ("gamma", "delta", "B", "C")}
+            columns.setdefault(name, cells | ({"delta": "1 (held)"} if "held" in row["method"] else {}))
     keys = ("gamma", "delta", "B", "C")
     return table(["", *keys], [[name, *(column[key] for key in keys)] for name, column in columns.items()])
 
