@@ -62,7 +62,9 @@ Rule one_each() {
   return [](CLI::Option &option) { option.allow_extra_args(false); };
 }
 Rule values(int count) {
-  return [count](CLI::Option &option) { option.expected(count); };
+  return [count](CLI::Option &option) {
+    option.expected(count)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  };
 }
 Rule shown(const std::string &value) {
   return [value](CLI::Option &option) { option.default_str(value); };
@@ -79,7 +81,9 @@ Rule excludes(CLI::Option *other) {
 Rule needs(CLI::Option *other) {
   return [other](CLI::Option &option) { option.needs(other); };
 }
-Rule positive() { return check(CLI::PositiveNumber); }
+Rule positive() {
+  return number_that<double>([](double value) { return value > 0.0; }, "a number above 0");
+}
 Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
 Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
 Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }

@@ -339,6 +339,9 @@ void BondLSMLinked::init_style()
           "bonds would not be counted; use the breaking ratio of bond_coeff",
           other->id, other->style);
   collected_at = -1;
+  for (int i = 1; i <= atom->nbondtypes; i++)    // fix adapt may have changed it
+    if (setflag[i] && !(k[i] > 0.0))
+      error->all(FLERR, "Bond lsm/linked: k of type {} is {}, but must be > 0", i, k[i]);
 
   // a minimizer has no velocities
   velocity = any_above_0(delay) && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
@@ -397,7 +400,5 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
 void *BondLSMLinked::extract(const char *str, int &dim)
 {
   dim = 1;
-  if (strcmp(str, "k") == 0) return k.data();
-  if (strcmp(str, "kelvin-voigt") == 0) return delay.data();
-  return nullptr;
+  return strcmp(str, "k") == 0 ? k.data() : nullptr;
 }

@@ -77,6 +77,8 @@ void FixLSMTraction::init()
   LSMScene::require_verlet(lmp, "Fix lsm/traction");
   if (!dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1)))
     error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
+  if (!modify->get_fix_by_id(std::string(id) + "_store"))
+    error->all(FLERR, "Fix lsm/traction {} needs its fix {}_store, which was deleted", id, id);
 }
 
 const double *FixLSMTraction::contact_radii() const

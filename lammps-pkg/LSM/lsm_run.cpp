@@ -6,6 +6,7 @@
 #include "error.h"
 #include "input.h"
 #include "update.h"
+#include "variable.h"
 
 #include "files/output_file.h"
 #include "files/parameters.h"
@@ -41,6 +42,19 @@ void LSMRun::command(int narg, char **arg)
     error->all(FLERR, "lsm_run: steps = {}, but {} of them are done; give as many or more", steps,
                step - after);
 
+  // found now and not by the first restart file
+  for (const std::string &one : further_variables)
+    if (input->variable->find(one.c_str()) < 0)
+      error->all(FLERR, "lsm_run: there is no variable {}", one);
+  if (prefix.find_first_of("*%") != std::string::npos)
+    error->all(FLERR, "lsm_run: prefix is {}, but must be the beginning of names without * and %",
+               prefix);
+  const std::string problem = lsm_on_0(world, [this] {
+    const fs::path folder = fs::absolute(prefix).parent_path();
+    if (!fs::is_directory(folder))
+      throw std::runtime_error("the folder of prefix " + prefix + " does not exist");
+  });
+  if (!problem.empty()) error->all(FLERR, "lsm_run: {}", problem);
   if (earlier == REFUSE) refuse_earlier();
 
   // Each piece begins with the set-up of a run (exchange, order of the particles in memory, lists)

@@ -302,6 +302,8 @@ double PairLSMFree::init_one(int i, int j)
         FLERR,
         "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch",
         i, j);
+  if (on[i][j] && !(k[i][j] > 0.0))
+    error->all(FLERR, "Pair lsm/*: k of types {} {} is {}, but must be > 0", i, j, k[i][j]);
   k[j][i] = k[i][j];
   delay[j][i] = delay[i][j];
   on[j][i] = active[i][j] = active[j][i] = on[i][j];
@@ -389,7 +391,6 @@ void *PairLSMFree::extract(const char *str, int &dim)
 {
   dim = 2;
   if (strcmp(str, "k") == 0) return k.data();
-  if (strcmp(str, "on") == 0) return active.data();
-  if (strcmp(str, "kelvin-voigt") == 0) return delay.data();
-  return nullptr;
+  dim = 1;    // so that fix adapt, which writes numbers, refuses it
+  return strcmp(str, "on") == 0 ? active.data() : nullptr;
 }

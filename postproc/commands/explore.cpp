@@ -116,6 +116,8 @@ class Explore : public Command {
       which.paths.push_back(ruptures[i]);
       which.labels.push_back(runs[i].kinds.front().table.label);
     }
+    if (which.paths.empty()) return runs;
+    which.where.clear();  // of the drops; ruptures have other columns
     std::vector<EventTable> tables = load_catalogues(which);
     for (std::size_t k = 0; k < tables.size(); ++k) {
       ExploreRun &run = runs[with_ruptures[k]];

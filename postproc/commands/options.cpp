@@ -161,7 +161,7 @@ double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &i
   require(path, info);
   const ModelUnits in_si = units.units(path, info);
   if (!of_moment()) return in_si.energy();
-  // Column slip_moment is slip times length; for ruptures it includes the modulus of the header.
+  // Column slip_moment includes the modulus of the header, if there is one.
   double modulus = 1.0;
   const std::string *const text = info.find("modulus");
   if (text && (!text::parse(*text, modulus) || !(modulus > 0.0)))

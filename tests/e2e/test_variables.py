@@ -179,6 +179,18 @@ def test_files_of_an_earlier_run_do_not_seem_to_be_of_this_one(lmp, on_ranks):
     refused(lmp, small(prefix="b"), "lsm_run: b.slip.bin is there, of an earlier run")
 
 
+def test_what_no_restart_file_could_be_written_for_is_refused_at_once(lmp):
+    Path("wrong.in").write_text("lsm_run 10 every 5 prefix ${prefix} ${key} ${value}\n")
+    for prefix, key, value, message in (("a*", "after", 0, "prefix is a.*without"), ("no/a", "after", 0, "folder of prefix no/a does not exist"),
+                                        ("a", "note", "nobody", "there is no variable nobody")):
+        refused(lmp, ["-in", "wrong.in", "-var", "prefix", prefix, "-var", "key", key, "-var", "value", value], f"lsm_run: .*{message}")
+
+
+def test_a_run_that_is_stopped_keeps_its_variables(lmp):
+    refused(lmp, small(velocity=1, kt=0.4, steps=4000), "strained by .* Wrote restart file a.emergency.restart", but="^a")
+    assert (info("a.emergency.restart.info")["velocity"], info("a.emergency.restart.info")["kt"]) == ("1", "0.4")
+
+
 def test_headers_state_what_runs(lmp):
     run(lmp, small(hold="position", ruptures="yes"))
     for file in ("a.catalogue.csv", "a.ruptures.csv"):
@@ -228,6 +240,8 @@ def test_a_long_time_step_makes_another_model(lmp):
                                          ("when y 1 : x 2\nx|1|number|-|-||", "there is no variable y"),
                                          ("x 1 ignores y\nx|1|number|-|-||", "there is no variable y"),
                                          ("never x 1 & y 2 : why\nx|1|number|-|-||", "there is no variable y"),
+                                         ("x|1|< 2|-|-||", "bad.variables:1: values are '< 2', but a bound must be > or >= and a number"),
+                                         ("x|1|>= y|-|-||", "bad.variables:1: values are '>= y'"),
                                          ("x ignores x\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("when x : x 2\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("x|${y}|number|-|-||\ny|1|number|-|-||", "variable y is needed before it is defined")])

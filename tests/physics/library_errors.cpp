@@ -95,7 +95,8 @@ int main(int argc, char **argv) {
   for (const char *files :
        {"catalogue no/folder/c.csv", "series no/folder/s.pe", "catalogue /dev/full"})
     Session().fails(start + "compute events all lsm/events " + files + "\nrun 10\n", "cannot");
-  Session().fails("include_beside no/file.in\n", "cannot read file");
+  for (const char *file : {"no/file.in", "."})
+    Session().fails(std::string("include_beside ") + file + "\n", "cannot read file");
   Session().fails(
       "fix plates all lsm/nve\nchange_box all boundary p f p\ngroup a id 1 2\ngroup b id 2 3\nfix "
       "p all lsm/plates a b "

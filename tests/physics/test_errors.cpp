@@ -135,6 +135,13 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
     }
 }
 
+TEST_F(BadInput, StiffnessThatFixAdaptMakesNegative) {
+  EXPECT_TRUE(failed_with(run_text(fault_read() + fault_shear("") +
+                                   "variable a equal -1.0\n"
+                                   "fix a all adapt 1 bond lsm/linked k 1 v_a\nrun 3\n"),
+                          {"k of type 1 is -1", "> 0"}));
+}
+
 // If the name of an output leads, in any spelling, to the file of another one, nothing is written.
 TEST_F(BadInput, OneFileForTwoOutputs) {
   const std::string shear = fault_read() + fault_shear("emergency e.state ${files}");

@@ -432,6 +432,8 @@ TEST_F(Ruptures, OneLineOfError) {
             {"needs bond style lsm/linked, or the keyword modulus"}},
            {"ruptures r.csv sides below nobody driving 0.001 modulus 1",
             {"sides has the group nobody, which does not exist"}},
+           {"ruptures r.csv driving 0.001 modulus 1\ngroup below clear",
+            {"sides has the group below, which has no particles"}},
            {"ruptures r.csv sides below below", {"sides needs two different groups, got below"}},
            {"ruptures r.csv faces nobody above driving 0.001 modulus 1",
             {"faces has the group nobody, which does not exist"}},

@@ -175,6 +175,18 @@ def pareto(n, seed=1, least=1e-4):
     return [least / (1 - random.random()) for _ in range(n)]
 
 
+def test_explore_with_conditions_on_drops_and_of_earthquakes(postproc, slider, files):
+    """Conditions on columns that ruptures lack, sizes left out of a published catalogue, and a catalogue without a model."""
+    run(slider, CHAIN, "--events ruptures --catalogue ruptures.csv")
+    lines = Path("slider.csv").read_text().splitlines()
+    head = next(n for n, line in enumerate(lines) if not line.startswith("#"))
+    lines[head:] = [lines[head] + ",peak_slip", *(line + ",1" for line in lines[head + 1:])]
+    Path("mine.csv").write_text("\n".join([lines[0], "# thinned = sizes below 0 left out", *lines[1:], ""]))
+    run(postproc, "explore mine.csv --ruptures ruptures.csv -o page.html", ["--where", "peak_slip > 0"]).printed(r"ruptures.csv: [1-9]\d* events")
+    Path("quakes.csv").write_text("time,latitude,longitude,mag\n" + "".join(f"1984-01-{day:02}T00:00:00Z,34,-118,{2 + day % 3}.1\n" for day in range(1, 29)))
+    run(postproc, "explore quakes.csv --from 1984-01-03 --magnitude-bin 0.1 -o quakes.html").printed("quakes.csv: 26 events")
+
+
 def test_explore_refuses_files_of_other_runs(postproc, slider, files):
     run(slider, CHAIN, "--seed 2 --catalogue other.csv --pe-series other.pe")
     run(postproc, "explore slider.csv --series slider.pe")

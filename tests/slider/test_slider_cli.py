@@ -259,6 +259,7 @@ BAD = [("--frobnicate 3", "frobnicate"), ("--kc -1", "--kc = -1, expected"), ("-
        ("--dt 1.5", "--dt = 1.5, expected at most 0.998"), ("--scheme printed --dt 0.12", "--dt = 0.12, expected less than 0.12"),
        ("--scheme euler", "--scheme = 'euler', expected printed"), ("--picker best", "--picker = 'best', expected"),
        ("--picker-lambda 1", "--picker-lambda = 1, expected"), ("--friction-range 1.0 0.5", "--friction-range"),
+       ("--friction-range 0.8", "--friction-range: .* 2 required"), ("--friction-range 0.8 0.9 1", "--friction-range: .* 2 required"),
        ("--catalogue no/such/folder/c.csv", "no/such/folder"), ("--pe-series no/such/folder/pe.txt", "no/such/folder"),
        ("--checkpoint no/such/folder/c.chk", "no/such/folder"), ("--json no/such/folder/s.json", "no/such/folder"),
        ("--resume", "--resume requires --checkpoint"), ("--paper --scheme verlet", "--paper"),

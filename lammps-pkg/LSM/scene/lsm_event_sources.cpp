@@ -113,9 +113,9 @@ std::pair<int, int> LSMEventSources::bits_of(const char *keyword, const LSM::Two
         settings_.asked_by(), keyword);
   const auto bit = [&](const std::string &name) {
     const int found = group->find(name);
-    if (found < 0)
-      error->all(FLERR, "Compute lsm/events {}: {} has the group {}, which does not exist",
-                 settings_.name, keyword, name);
+    if (found < 0 || group->count(found) == 0)
+      error->all(FLERR, "Compute lsm/events {}: {} has the group {}, which {}", settings_.name,
+                 keyword, name, found < 0 ? "does not exist" : "has no particles");
     return group->bitmask[found];
   };
   return {bit(groups.lower), bit(groups.upper)};

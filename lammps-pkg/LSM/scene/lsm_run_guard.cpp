@@ -63,7 +63,7 @@ void LSMRunGuard::check_step(const LSM::EnergyLedger &ledger,
   if (!alarm.finite) stop_run(alarm.what, "The catalogue ends with the last event before it");
 
   LSMMover::complete_steps(modify);
-  LSMScript::save_restart(lmp, emergency_file, {}, true);
+  LSMScript::save_restart(lmp, emergency_file, LSMScript::listed(lmp, LSMScript::SAVED), true);
   stop_run(alarm.what, "Wrote restart file " + emergency_file);
 }
 

@@ -45,6 +45,13 @@ static bool consists_of(const std::string &value, const char *more)
   });
 }
 
+// "> 0", ">= 0" or "whole >= 1"
+static bool is_bound(const std::string &accepted, std::smatch &bound, double &least)
+{
+  static const std::regex BOUND("(whole )?(>=?) (\\S+)");
+  return std::regex_match(accepted, bound, BOUND) && LSM::text::parse(bound[3].str(), least);
+}
+
 std::string LSMSceneVariable::expected(const std::string &value, const std::string &accepted)
 {
   if (accepted == "file" || accepted == RESTART_FILE)
@@ -62,10 +69,9 @@ std::string LSMSceneVariable::expected(const std::string &value, const std::stri
   const bool is_number = LSM::text::parse(value, number) && std::isfinite(number);
   if (accepted == "number") return is_number ? "" : "a number";
   std::smatch bound;
-  static const std::regex BOUND("(whole )?(>=?) (\\S+)");
-  if (std::regex_match(accepted, bound, BOUND)) {
+  double least = 0.0;
+  if (is_bound(accepted, bound, least)) {
     const bool whole = bound[1].matched;
-    const double least = std::stod(bound[3]);
     const bool good = is_number && (bound[2] == ">" ? number > least : number >= least) &&
                       (!whole || number == std::floor(number));
     return good ? ""
@@ -121,6 +127,11 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
       if (cells[3] != "-" && restart == static_cast<long>(RESTART.size()))
         throw std::invalid_argument("restart is '" + cells[3] + "', but must be " +
                                     LSM::either(RESTART));
+      std::smatch bound;
+      double least;
+      if (cells[2].find_first_of("<>") != std::string::npos && !is_bound(cells[2], bound, least))
+        throw std::invalid_argument("values are '" + cells[2] +
+                                    "', but a bound must be > or >= and a number");
       if (cells[4] != "header" && cells[4] != "-")
         throw std::invalid_argument("header is '" + cells[4] + "', but must be header or -");
       if (find(cells[0])) throw std::invalid_argument("a second variable " + cells[0]);

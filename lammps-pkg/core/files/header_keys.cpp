@@ -83,6 +83,7 @@ const std::vector<HeaderKey> &header_keys() {
       {"tangential_energy",  model,     text},
       {"picked_by",          recording, text},
       {"selected",           recording, text},
+      {"thinned",            recording, text},
       // of slip and ruptures
       {"slip_bin",           recording, number},
       {"slip_bin_dip",       recording, number},
