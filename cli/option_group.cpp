@@ -20,9 +20,9 @@ Rule transform(const CLI::Validator &validator) {
   return [validator](CLI::Option &option) { option.transform(validator); };
 }
 
-/// Allows the numbers that the predicate `good` accepts.
+/// Allows the numbers that the predicate `good` accepts. name: beside the type in --help
 template <class Number, class Good>
-Rule number_that(Good good, const std::string &expected) {
+Rule number_that(Good good, const std::string &expected, const char *name = "") {
   return check(CLI::Validator(
       [good, expected](std::string &text) {
         Number value{};
@@ -30,7 +30,7 @@ Rule number_that(Good good, const std::string &expected) {
                    ? std::string()
                    : "expected " + expected + ", not " + text::in_quotes(text);
       },
-      ""));
+      name));
 }
 
 /// Shows defaults as CLI11 2.1 does, FLOAT=1, and not as later versions do, FLOAT [1], and none for
@@ -82,7 +82,8 @@ Rule needs(CLI::Option *other) {
   return [other](CLI::Option &option) { option.needs(other); };
 }
 Rule positive() {
-  return number_that<double>([](double value) { return value > 0.0; }, "a number above 0");
+  return number_that<double>([](double value) { return value > 0.0; }, "a number above 0",
+                             "POSITIVE");
 }
 Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
 Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }

@@ -19,7 +19,7 @@ struct ModelUnits {
 
   /// Model values of the packing by create_lsm_fault with its defaults: wave speeds as measured;
   /// density is the mass of the discs (radius squared each) over the area of the blocks.
-  static constexpr double model_p_speed = 2.08, model_s_speed = 1.06, model_density = 0.286;
+  static constexpr double model_p_speed = 2.00, model_s_speed = 1.05, model_density = 0.286;
 
   double velocity() const { return p_speed / model_p_speed; }                          ///< m/s
   double time() const { return length / velocity(); }                                  ///< s

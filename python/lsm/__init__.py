@@ -175,7 +175,7 @@ def rates(events, width, column="size"):
 def units(length, p_speed, density, thickness=None):
     """What one model unit of the fault is in SI, for a unit of length (m), a speed of P-waves (m/s), a density (kg/m^3) and a thickness (m;
     without it the unit of length): see postproc/units.md. A dict: length, time, velocity, stress, energy, moment."""
-    velocity = p_speed / 2.08  # speeds of P- and S-waves and density of packings in model units
+    velocity = p_speed / 2.00  # speeds of P- and S-waves and density of packings in model units
     stress, volume = density / 0.286 * velocity**2, length**2 * (thickness or length)
     return dict(length=length, time=length / velocity, velocity=velocity, stress=stress, energy=stress * volume,
-                moment=density * (1.06 * velocity)**2 * volume)
+                moment=density * (1.05 * velocity)**2 * volume)

@@ -183,7 +183,8 @@ def test_explore_with_conditions_on_drops_and_of_earthquakes(postproc, slider, f
     lines[head:] = [lines[head] + ",peak_slip", *(line + ",1" for line in lines[head + 1:])]
     Path("mine.csv").write_text("\n".join([lines[0], "# thinned = sizes below 0 left out", *lines[1:], ""]))
     run(postproc, "explore mine.csv --ruptures ruptures.csv -o page.html", ["--where", "peak_slip > 0"]).printed(r"ruptures.csv: [1-9]\d* events")
-    Path("quakes.csv").write_text("time,latitude,longitude,mag\n" + "".join(f"1984-01-{day:02}T00:00:00Z,34,-118,{2 + day % 3}.1\n" for day in range(1, 29)))
+    Path("quakes.csv").write_text("time,latitude,longitude,mag\n" + "".join(f"1984-01-{day:02}T00:00:00Z,34,-118,{2 + day % 3}.1\n"
+                                                                            for day in range(1, 29)))
     run(postproc, "explore quakes.csv --from 1984-01-03 --magnitude-bin 0.1 -o quakes.html").printed("quakes.csv: 26 events")
 
 

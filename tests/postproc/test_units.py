@@ -15,10 +15,10 @@ sys.path.insert(0, str(SOURCE / "python"))
 import lsm  # noqa: E402
 
 ROCK = "--unit-length 100 --p-speed 6000 --density 2700"
-# Computed by hand from the speeds of P-waves, 2.08, and S-waves, 1.06, and the density 0.286 in model units.
-VELOCITY = 6000 / 2.08
+# Computed by hand from the speeds of P-waves, 2.00, and S-waves, 1.05, and the density 0.286 in model units.
+VELOCITY = 6000 / 2.00
 TIME = 100 / VELOCITY
-MODULUS = 2700 * (1.06 * VELOCITY)**2
+MODULUS = 2700 * (1.05 * VELOCITY)**2
 MOMENT = MODULUS * 100**3
 ENERGY = 2700 / 0.286 * VELOCITY**2 * 100**3
 

@@ -19,7 +19,9 @@ struct LatticeSettings {
 
   int columns() const { return static_cast<int>(std::lround(length / spacing)); }
   double row_height() const { return 0.5 * std::sqrt(3.0) * spacing; }
-  int rows() const { return 1 + static_cast<int>(0.5 * width / row_height() * (1.0 + 1e-12)); }  ///< of a block
+  int rows() const {
+    return 1 + static_cast<int>(0.5 * width / row_height() * (1.0 + 1e-12));
+  }  ///< of a block
   /// The fault line is in the middle, with x from -half_length to half_length.
   double half_length() const { return 0.5 * columns() * spacing; }
   /// Distance from the fault line to the centres of the outer rows.
