@@ -137,7 +137,7 @@ STATEMENTS = (
               of("one_bin"), -ANY, 0.5, 0.1),
     Statement("roll-off", "sizes roll off: 2 ln L of an exponential roll-off over a power law without end, above 3.84", of("roll_off_gain"), 3.84,
               ANY, 3.84),
-    Statement("waves", "velocity of P-waves: 2.1", lambda r: WAVE_SPEED[r["mass"]], 2.1, 2.1, 0.1),
+    Statement("waves", "velocity of P-waves: 2.12 (Eq. 4)", lambda r: WAVE_SPEED[r["mass"]], 2.12, 2.12, 0.1),
     Statement("least squares", "gamma by least squares on the density †", of("gamma_squares"), 0.995, 0.995, 0.1),
     Statement("locked", "the fault is locked between events: slip velocity there over that of the plates, below a half †", of("rate_between"), -ANY,
               0.5, 0.1),
