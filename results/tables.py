@@ -317,10 +317,27 @@ def validation_table():
         "gamma >= 1e-4": "gamma_0.0001", "one event in": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"
     }
     others, ours = (with_sizes(summaries(folder), "ruptures", "1e-2", "ruptures", folder) for folder in (VALIDATION, CAMPAIGN))
-    rows = [row for row in ours if row["length"] in {other["length"] for other in others}] + others
+    rows = [row for row in ours + others if row["length"] == "120"]
     groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], f"{float(row['dt']):g}"))
     names = [f"width {width}, time step {dt} ({len(some)} packing{'s' * (len(some) > 1)})" for (_, width, dt), some in groups.items()]
     return turned(["", *keys], [[name, *(over(some, key) for key in keys.values())] for name, some in zip(names, groups.values())])
+
+
+def widths_table():
+    """Ruptures in blocks of several widths, once they are loaded, and what those of the whole fault are of them."""
+    found = {}
+    for folder in CAMPAIGN, VALIDATION:
+        for path in (path for length, paths in faults("ruptures", folder).items() if length <= 480 for path in paths):
+            header = catalogues.lsm.read_catalogue(path).header
+            length, width = float(header["length"]), float(header["width"])
+            if header["dt"] == "0.12":
+                events = catalogues.events_of(path, calibrate.LOADING * width / 30)
+                events = events[events["size"] >= 1e-2]
+                size, whole = events["size"], events["rupture_length"] >= length
+                numbers = len(size), np.sum(size**2) / np.sum(size), np.sum(whole), 100 * np.sum(size[whole]**2) / np.sum(size**2)
+                found.setdefault((width, length), []).append([float(one) for one in numbers])
+    rows = [[f"{length:g}, {width:g}", f"{len(some)}", *(spread(one) for one in zip(*some))] for (width, length), some in sorted(found.items())]
+    return table(["length, width", "packings", "ruptures >= 0.01", "s*", "of the whole fault", "their share of the sum of s^2, %"], rows)
 
 
 def order_of_sums_table():

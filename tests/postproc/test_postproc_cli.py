@@ -339,7 +339,7 @@ def test_magnitudes(do, no):
     assert sum(row[0] for row in numbers_of("m.csv", 3)) == 2000
     no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
     no("complete-from 'nowhere', expected 'header', 'curvature' or a magnitude", "magnitudes gr.csv -o x --complete-from nowhere")
-    no("magnitude-slope: Value 0 not in range", "magnitudes gr.csv -o x --magnitude-slope 0")
+    no("magnitude-slope: expected a number above 0", "magnitudes gr.csv -o x --magnitude-slope 0")
     no("magnitude-bin: expected a number of 0 or more, not '-1'", "magnitudes gr.csv -o x --magnitude-bin -1")
     without_column("gr.csv", "plain.csv")
     no("plain.csv: has no column slip_moment, expected one for --magnitude-of moment",

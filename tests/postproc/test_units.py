@@ -44,14 +44,14 @@ def test_units():
     assert unit["time"] == pytest.approx(TIME) and unit["velocity"] == pytest.approx(VELOCITY) and unit["length"] == 100
     assert unit["stress"] == pytest.approx(2700 / 0.286 * VELOCITY**2)
     assert unit["energy"] == pytest.approx(ENERGY) and unit["moment"] == pytest.approx(MOMENT)
-    # The paper's fault: 1.7 GPa, 0.7 m/s
-    assert 0.022 * unit["stress"] == pytest.approx(1728e6, rel=1e-3) and 0.00025 * unit["velocity"] == pytest.approx(0.721, abs=1e-3)
+    # A normal stress of 0.022, and the plates of the paper: 1.9 GPa, 0.75 m/s
+    assert 0.022 * unit["stress"] == pytest.approx(1869e6, rel=1e-3) and 0.00025 * unit["velocity"] == pytest.approx(0.75, abs=1e-3)
     assert lsm.units(100, 6000, 2700, thickness=5000)["moment"] == pytest.approx(50 * MOMENT)
 
 
 def test_export(postproc, catalogue):
     catalogue("c.csv")
-    run(postproc, "export c.csv -o t.csv", ROCK).printed("a unit of time is 0.03467 s; time 0 is 2000-01-01T00:00:00")
+    run(postproc, "export c.csv -o t.csv", ROCK).printed("a unit of time is 0.03333 s; time 0 is 2000-01-01T00:00:00")
     rows = table("t.csv")
     assert [float(row["magnitude"]) for row in rows] == pytest.approx([mw(m * MOMENT) for m in (1, 0.1, 10)])
     assert {row["magnitude_type"] for row in rows} == {"Mw"} and rows[1]["time"] == f"2000-01-01T00:00:00.{round(10 * TIME * 1e6):06d}"
