@@ -302,5 +302,5 @@ TEST_F(Benchmark, WrongInputIsNamed) {
       run_text(begin + "unfix load\nfix load all lsm/traction lower upper 0.5 0\nrun 0\n"),
       {"would overlap"}));
   EXPECT_TRUE(failed_with(run_text(begin + "unfix load_store\nrun 0\n"),
-                          {"fix lsm/traction load needs its fix load_store"}));
+                          {"Fix lsm/traction load needs its fix load_store"}));
 }
