@@ -196,10 +196,13 @@ def agreement_table():
         lengths = ("120", "945") if preset == "default" else ("120", "480", "1890")
         rows = grouped(of_all_times(PRESETS[preset]), lambda row: row["length"])
         for length in lengths:
-            numbers = [shown(statistics.mean(number(row, key) for row in rows[length])) for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")]
+            numbers = [
+                shown(statistics.mean(number(row, key) for row in rows[length])) for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
+            ]
             share = 100 * statistics.mean(slip[preset, length].values())
             out.append([f"{head}, {length}", f"{len(rows[length])}, {fitted.get((preset, length), 'predicted')}", f"{share:.0f}", *numbers])
-    return table(["fault, length", "packings", "events of 0.001 to 0.1 that are slip, % †", "exponent over three decades", "gamma", "its scale B"], out)
+    return table(["fault, length", "packings", "events of 0.001 to 0.1 that are slip, % †", "exponent over three decades", "gamma", "its scale B"],
+                 out)
 
 
 @functools.cache
