@@ -330,11 +330,16 @@ def together(paths, out):
     return [out]
 
 
+def published(postproc):
+    """The rows of nature.md."""
+    with tempfile.TemporaryDirectory() as folder:
+        sums = {label: together(MODELS[f"fault {length}"][:many], Path(folder) / f"{length}.csv") for label, (length, many) in SUMS.items()}
+        return rows_of(postproc, MODELS | sums)
+
+
 def main(postproc, catalogue, threshold, begin, json_file):
     if catalogue is None:
-        with tempfile.TemporaryDirectory() as folder:
-            sums = {label: together(MODELS[f"fault {length}"][:many], Path(folder) / f"{length}.csv") for label, (length, many) in SUMS.items()}
-            rows = rows_of(postproc, MODELS | sums)
+        rows = published(postproc)
         write(rows, HERE / "nature")
         picture(rows, HERE / "nature")
     else:

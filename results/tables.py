@@ -971,7 +971,7 @@ def differing(path, rows, there=None, least=1e-6):
 
 def check_csv():
     """Files of nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
-    rows = nature.rows_of(POSTPROC, nature.MODELS)
+    rows = nature.published(POSTPROC)
     wrong = [
         differing(FOLDER / f"nature{ending}.csv", made)
         for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)), (".table1", nature.table1(rows)))
