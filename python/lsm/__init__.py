@@ -94,7 +94,7 @@ def _binary(path, magics, what):
         raise ValueError(f"{path}: no {what}, expected {expected} in the first 16 bytes")
     if len(raw) < 24 or len(raw) - 24 < (length := struct.unpack("<q", raw[16:24])[0]) or length < 0:
         raise ValueError(f"{path}: the header is not complete")
-    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), raw[24 + length:], magics.index(raw[:16]) + 1
+    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), memoryview(raw)[24 + length:], magics.index(raw[:16]) + 1
 
 
 def _records(raw, kinds):
