@@ -70,9 +70,7 @@ std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
     const double *u = view_.u;
-    const double coupling = view_.by_springs() ? view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]))
-                                               : view_.of_modes.coupling[i];
-    const double plate_at = u[i] + (view_.mu[i] - coupling) / view_.kl;
+    const double plate_at = u[i] + (view_.mu[i] - view_.coupling(i)) / view_.kl;
     first = std::min(first, plate_at);
     scale = std::max({scale, std::fabs(plate_at),
                       std::fabs(u[i]) * (1.0 + view_.kc / view_.kl) + view_.mu[i] / view_.kl});
@@ -134,12 +132,22 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
     while (old != end && *old < c) idle_.push_back(*old++);
     if (old != end && *old == c)
       ++old;
-    else
+    else {
       wake(c) = 0;
+      if (view_.ahead) find_forces(c, step);
+    }
   }
   idle_.insert(idle_.end(), old, end);
   list_.swap(next_list_);
   settle_idle(step);
+}
+
+// Forces after this step in a chunk that has been idle: a neighbour may start its blocks in the
+// next one, and how far they slip in it, without inertia, depends on the force before.
+void ActiveSet::find_forces(int c, std::int64_t step) {
+  const double plate = plate_step_ * static_cast<double>(step);
+  for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i)
+    view_.force[i] = view_.pull(i, plate);
 }
 
 // Removes the chunks in idle_ from the list until their wake step, or keeps them if it has come.

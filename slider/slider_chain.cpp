@@ -208,11 +208,7 @@ void Chain::restart() {
   u[-1] = u[view_.blocks - 1];
   u[view_.blocks] = u[0];
   if (forces_) forces_->find(u);
-  for (int i = 0; i < view_.blocks; ++i) {
-    const double coupling =
-        forces_ ? view_.of_modes.coupling[i] : view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
-    view_.force[i] = coupling + view_.kl * (plate() - u[i]);
-  }
+  for (int i = 0; i < view_.blocks; ++i) view_.force[i] = view_.pull(i, plate());
   if (!cells_.empty()) {
     std::fill(cells_.begin(), cells_.end(), 0);
     std::fill(ends_.begin(), ends_.end(), std::numeric_limits<double>::max());

@@ -30,6 +30,13 @@ struct ChainView : Parameters {
   ModeForces *forces = nullptr;
   ModeArrays of_modes = {};
   double *change = nullptr;  ///< of the displacements in this step
+
+  /// Force of the other blocks on block i
+  double coupling(int i) const {
+    return by_springs() ? kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) : of_modes.coupling[i];
+  }
+  /// Force of all springs on block i
+  double pull(int i, double plate) const { return coupling(i) + kl * (plate - u[i]); }
 };
 
 /// Sums over the listed chunks in one step.
