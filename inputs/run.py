@@ -15,6 +15,7 @@ The classes state which names a program knows (known()), and which of them are s
 """
 import ctypes
 import fcntl
+import gzip
 import hashlib
 import json
 import lzma
@@ -79,7 +80,7 @@ def alone_in(folder):
 
 
 def events_in(catalogue):
-    with (lzma.open if catalogue.resolve().suffix == ".xz" else open)(catalogue, "rt") as lines:
+    with {".xz": lzma.open, ".gz": gzip.open}.get(catalogue.resolve().suffix, open)(catalogue, "rt") as lines:
         return sum(line[0] not in "#e" and line.endswith("\n") for line in lines)
 
 

@@ -471,7 +471,9 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     words.insert(words.end(), extra.begin(), extra.end());
     try {
       RunOptions &run = all.emplace_back(parse(words, base.run.stop)).run;
-      if (std::find(extra.begin(), extra.end(), "--catalogue") == extra.end())
+      if (std::none_of(extra.begin(), extra.end(), [](const std::string &word) {
+            return word == "--catalogue" || word.rfind("--catalogue=", 0) == 0;
+          }))
         run.catalogue = numbered(run.catalogue, number);
       run.series = numbered(run.series, number);
       run.checkpoint = numbered(run.checkpoint, number);

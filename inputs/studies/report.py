@@ -48,7 +48,7 @@ def parameters_of(path):
     for magic, module in ((b"\x1f\x8b", gzip), (b"\xfd7zXZ\0", lzma)):
         if raw.startswith(magic):
             raw = module.decompress(raw)
-    lines = raw.decode("utf-8", "replace").splitlines()
+    lines = raw.decode("utf-8-sig", "replace").splitlines()
     return header_of(lines) if lines and lines[0].startswith("# lsm-catalogue") else {}
 
 

@@ -160,7 +160,7 @@ def settings_of(row, config):
             if not positive(pairs[key]):
                 raise TableError(f"{key} '{pairs[key]}', expected a number above 0")
             value = float(pairs[key]) / shorten
-            pairs[key] = f"{value:.0f}" if key == "steps" else f"{value:g}"
+            pairs[key] = f"{value:.0f}" if key == "steps" else f"{value:.15g}"
     return pairs
 
 

@@ -64,16 +64,16 @@ class Compare : public Statistic {
       throw std::invalid_argument("one catalogue, expected at least two to compare");
     struct Line {
       const EventTable &first, &second;
+      double threshold;
       std::string quantity;
       TwoSampleTest test;
     };
     const EventTable &first = tables.front();
-    const double threshold = threshold_.of(first).size;
     TableOf<Line> out;
     out.column("first", "first", [](auto &line) { return line.first.label; });
     out.column("second", "second", [](auto &line) { return line.second.label; });
     out.column("quantity", "", &Line::quantity);
-    out.data("smallest_size", [threshold](auto &) { return threshold; });
+    out.data("smallest_size", [](auto &line) { return line.threshold; });
     out.column("n_first", "events", [](auto &line) { return line.test.n[0]; });
     out.column("n_second", "events", [](auto &line) { return line.test.n[1]; });
     out.show("mean", [](auto &line) { return line.test.means[0]; });
@@ -94,9 +94,12 @@ class Compare : public Statistic {
         "whose Kolmogorov-Smirnov distance is as large");
     Results results;
     results.say(texts(threshold_, tables));
-    for (std::size_t i = 1; i < tables.size(); ++i)
+    for (std::size_t i = 1; i < tables.size(); ++i) {
+      // both from the size on from which both are complete
+      const double least = std::max(threshold_.of(first).size, threshold_.of(tables[i]).size);
       for (const std::string quantity : {"size", "time"})
-        out.row({first, tables[i], quantity, test(first, tables[i], quantity, threshold)});
+        out.row({first, tables[i], least, quantity, test(first, tables[i], quantity, least)});
+    }
     results.table("tests", std::move(out), "");
     return results;
   }

@@ -36,8 +36,7 @@ class Histograms : public Statistic {
     if (!range_.empty()) {
       const Range range = parse_range("--range", range_);
       if (range.lo > -std::numeric_limits<double>::infinity())
-        settings_.threshold =
-            std::max(range.lo, settings_.threshold.given.value_or(paper_threshold));
+        settings_.threshold = std::max(range.lo, settings_.threshold.given.value_or(range.lo));
       settings_.upto = range.hi;
     }
     std::vector<PowerLine> lines;

@@ -83,6 +83,10 @@ class Magnitudes : public Statistic {
       curve.completeness = table.earthquakes() ? nearest_decimal(magnitude_of_size(smallest.size))
                                                : scale.of(smallest.size);
       curve.completeness_text = "sizes >= " + text(smallest);
+      // The catalogue has nothing of the part of a bin that is below it; of earthquakes the reader
+      // has seen to this.
+      if (!table.earthquakes() && smallest.size == table.complete_from)
+        curve.completeness += 0.5 * curve.bin;
     } else {
       throw std::invalid_argument("--complete-from " + text::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");

@@ -69,11 +69,12 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
              fmt::format("{} ({} events){}", curve.label, curve.magnitudes.size(),
                          b.degenerate ? "" : ": b = " + with_error(b.b, b.error, " ± ")));
     if (b.degenerate) continue;
-    const std::string from = text::number(curve.completeness);
-    plot.add_law(curve.completeness,
-                 *std::max_element(curve.magnitudes.begin(), curve.magnitudes.end()),
-                 fmt::format("{}*10**(-({})*($1-({})))", b.n, text::number(b.b), from),
-                 fmt::format("lt {}", number));
+    // The law, too, counts from the lower edge of its first bin.
+    const double lowest = curve.completeness - 0.5 * curve.bin;
+    plot.add_law(
+        lowest, *std::max_element(curve.magnitudes.begin(), curve.magnitudes.end()),
+        fmt::format("{}*10**(-({})*($1-({})))", b.n, text::number(b.b), text::number(lowest)),
+        fmt::format("lt {}", number));
   }
   if (number == 0)
     throw DegenerateData("no event with a magnitude in any catalogue, nothing to draw");

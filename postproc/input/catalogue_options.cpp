@@ -17,6 +17,7 @@ namespace {
 void add_time(OptionGroup group, const char *option, double &time, double &day,
               const std::string &help) {
   const auto read = [option, &time, &day](const std::vector<std::string> &texts) {
+    std::int64_t times = 0, days = 0;
     for (const std::string &text : texts) {
       const std::optional<double> date = parse_date(text);
       if (date)
@@ -25,11 +26,15 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
         throw std::invalid_argument(fmt::format(
             "{} {}: expected a model time, or for earthquakes a date such as 1984-01-01", option,
             text::in_quotes(text)));
+      if (++(date ? days : times) > 1)
+        throw std::invalid_argument(
+            fmt::format("{} {}: a second {}, expected one for all catalogues", option,
+                        text::in_quotes(text), date ? "date" : "model time"));
     }
   };
-  group.call<std::vector<std::string>>(option, read, help + "; may be given once per catalogue",
-                                       one_each(), kind("TIME"),
-                                       shown(time < 0.0 ? "start" : "end"));
+  group.call<std::vector<std::string>>(
+      option, read, help + "; at most a model time and a date, each for all", one_each(),
+      kind("TIME"), shown(time < 0.0 ? "start" : "end"));
 }
 
 std::string threshold_help(const std::string &what, const std::string &more) {

@@ -26,6 +26,7 @@ class Unpacked : public Bytes {
       : Bytes(packed->path()), packed_(std::move(packed)), input_(1 << 16) {}
 
   std::int64_t size() const override {
+    if (packed_->size() < 0) return -1;  // a pipe cannot be read twice
     const std::unique_ptr<Bytes> again = open_input(path());
     std::vector<char> block(1 << 16);
     std::int64_t sum = 0;

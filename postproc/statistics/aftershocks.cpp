@@ -273,6 +273,8 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
   stack.window = rule.window;
   std::vector<EventSummary> mains;
   std::size_t earliest = 0;  // index of the first event in the window, which only moves forward
+  double longest = 0.0;
+  for (const EventSummary &event : events) longest = std::max(longest, event.t_end - event.t_start);
   for (std::size_t k = 0; k < events.size(); ++k) {
     const EventSummary main = events[k];
     if (!(main.size >= rule.main_size)) continue;
@@ -294,9 +296,14 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
       // after the main shock has ended.
       if (!is_before(other.t_start, main.t_end + rule.first))
         stack.times.push_back(std::min(other.t_start - main.t_end, rule.window));
-      // An event that overlaps with the main shock is neither before nor after it.
-      if (i < k && !is_before(main.t_start - rule.first, other.t_end))
-        stack.before.push_back(main.t_start - other.t_end);
+    }
+    // Those before it count from their end on, so that they may have begun before the window; an
+    // event that overlaps with the main shock is neither before nor after it.
+    for (std::size_t i = k; i-- > 0 && !is_before(events[i].t_start, from - longest);) {
+      const EventSummary &other = events[i];
+      if (other.size >= rule.least_size && !is_before(other.t_end, from) &&
+          !is_before(main.t_start - rule.first, other.t_end))
+        stack.before.push_back(std::min(main.t_start - other.t_end, rule.window));
     }
   }
   std::sort(stack.times.begin(), stack.times.end());

@@ -506,8 +506,9 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
   const Profile best = likelihood.best(delta);
   fit.why = no_density(likelihood, best, fit.delta_fixed);
   if (fit.why.empty()) report(likelihood, best, reference, fit);
+  if (std::isfinite(best.log_likelihood))
+    fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
   if (!fit.why.empty()) return fit;
-  fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
   const std::vector<double> &sorted = likelihood.sort();
   fit.ks = Law(best, likelihood.lower()).ks({sorted.data(), sorted.size()})();
   return fit;

@@ -24,7 +24,7 @@ struct GeneralisedGammaFit {
   bool delta_fixed = false;
   double lo = 0.0;     ///< left truncation (maximum likelihood) or lowest edge (least squares)
   std::int64_t n = 0;  ///< number of values, or of counts in the bins used
-  double log_likelihood = NAN;  ///< maximum likelihood only
+  double log_likelihood = NAN;  ///< maximum likelihood only; also of the optimum of no valid fit
   /// Kolmogorov-Smirnov distance, maximum likelihood only. It is reduced by fitting the parameters
   /// to the same values, so tables for given parameters do not apply; see p_value().
   double ks = NAN;

@@ -53,8 +53,9 @@ RollOff roll_off(const EventTable &table, double least) {
   found.free = fit_maximum_likelihood(sizes, least);
   found.exponential = fit_maximum_likelihood(sizes, least, 1.0);
   const PowerLawFit law = fit_power_law(sizes, least);
-  if (!law.degenerate && !found.exponential.degenerate)
+  if (!law.degenerate)  // without a fall-off the optimum is that of the power law, but for rounding
     found.gain = 2.0 * (found.exponential.log_likelihood - law.log_likelihood);
+  if (found.gain < 0.0) found.gain = 0.0;
   return found;
 }
 

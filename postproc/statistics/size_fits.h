@@ -56,8 +56,8 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
 struct RollOff {
   GeneralisedGammaFit free;         ///< fit to the sizes: gamma = 1 - alpha, delta = power
   GeneralisedGammaFit exponential;  ///< the same with power 1
-  /// Twice the gain in ln L of the exponential roll-off over a pure power law; NaN if either has no
-  /// fit.
+  /// Twice the gain in ln L of the exponential roll-off over a pure power law, also where it is too
+  /// small for a fit; NaN if either has no optimum.
   double gain = NAN;
 };
 /// \param least smallest size that is used (energy)

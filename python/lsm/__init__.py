@@ -17,6 +17,7 @@ have ended, or may have been killed.
 import gzip
 import lzma
 import struct
+import zlib
 
 import numpy as np
 
@@ -44,7 +45,7 @@ def _bytes(path):
         if raw.startswith(magic):
             try:
                 return module.decompress(raw)
-            except (EOFError, OSError, lzma.LZMAError) as error:
+            except (EOFError, OSError, lzma.LZMAError, zlib.error) as error:
                 raise ValueError(f"{path}: cannot be decompressed ({error}), expected a complete file") from None
     return raw
 
@@ -63,7 +64,7 @@ def _number(path, header, name, kind=float):
 
 def read_catalogue(path, lenient=False):
     """Reads the events of a catalogue; columns of integers are int64, all others float64. lenient: leaves out lines that cannot be read."""
-    lines = _bytes(path).decode("utf-8", "replace").split("\n")
+    lines = [line.removesuffix("\r") for line in _bytes(path).decode("utf-8-sig", "replace").split("\n")]
     lines.pop()  # the incomplete last line, or the empty text after the last line end
     if not lines or not lines[0].startswith("# lsm-catalogue "):
         raise ValueError(f"{path}: no catalogue, expected '# lsm-catalogue 1' in the first line")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files that version 1.0 wrote, in tests/data/1.0, are read by every reader (lammps-pkg/doc/formats.md).
 contents.json says what is in them; neither it nor they are ever changed."""
+import gzip
 import json
 import math
 import sys
@@ -84,6 +85,21 @@ def test_python_reads_slip_of_a_plane():
     Path("plane.slip.bin").write_bytes(raw.replace(b"# bins_dip = 5", b"# bins_dip = 0"))
     with pytest.raises(ValueError, match="plane.slip.bin: parameter 'bins_dip' is 0, expected at least 1"):
         lsm.read_slip("plane.slip.bin")
+
+
+def test_python_reads_lines_of_windows(postproc):
+    raw = (DATA / "fault.catalogue.csv").read_bytes()
+    Path("windows.csv").write_bytes(b"\xef\xbb\xbf" + raw.replace(b"\n", b"\r\n"))
+    found, wanted = lsm.read_catalogue("windows.csv"), lsm.read_catalogue(DATA / "fault.catalogue.csv")
+    assert found.dtype == wanted.dtype and found.header == wanted.header and (found == wanted).all()
+
+
+def test_python_names_a_damaged_file(postproc):
+    packed = gzip.compress((DATA / "fault.catalogue.csv").read_bytes())
+    for at in range(10, len(packed), 29):
+        Path("damaged.csv.gz").write_bytes(packed[:at] + bytes([packed[at] ^ 0x10]) + packed[at + 1:])
+        with pytest.raises(ValueError, match="damaged.csv.gz: "):
+            lsm.read_catalogue("damaged.csv.gz")
 
 
 def test_another_number_is_refused(postproc):

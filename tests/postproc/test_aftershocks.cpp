@@ -182,6 +182,35 @@ TEST(Sequences, MainShocksByHand) {
   EXPECT_THROW(stack_sequences(table.events, rule), std::invalid_argument);
 }
 
+TEST(Sequences, EventsBeforeMainShocksAreThoseAfterThemInReverse) {
+  // That at 70 begins before the window and ends in it, 15 before the main shock.
+  const std::vector<double> starts = {0, 50, 70, 90, 98, 108, 140, 300},
+                            lasting = {0, 29, 15, 3, 4, 12, 5, 0}, sizes = {1, 2, 1, 3, 1, 1, 2, 1};
+  std::vector<double> reversed_starts, reversed_lasting, reversed_sizes;
+  for (std::size_t i = starts.size(); i-- > 0;) {
+    reversed_starts.push_back(300 - starts[i] - lasting[i]);
+    reversed_lasting.push_back(lasting[i]);
+    reversed_sizes.push_back(sizes[i]);
+  }
+  SequenceRule rule;
+  rule.main_size = 50;
+  rule.least_size = 1;
+  rule.window = 20;
+  auto with_main = [&](std::vector<double> start, std::vector<double> length,
+                       std::vector<double> size, double at, std::size_t place) {
+    start.insert(start.begin() + static_cast<std::ptrdiff_t>(place), at);
+    length.insert(length.begin() + static_cast<std::ptrdiff_t>(place), 5.0);
+    size.insert(size.begin() + static_cast<std::ptrdiff_t>(place), 50.0);
+    return stack_sequences(events(start, length, size).events, rule);
+  };
+  const Sequences s = with_main(starts, lasting, sizes, 100, 5);
+  const Sequences reversed = with_main(reversed_starts, reversed_lasting, reversed_sizes, 195, 3);
+  EXPECT_EQ(s.before, (std::vector<double>{7, 15}));
+  EXPECT_EQ(s.times, (std::vector<double>{3}));
+  EXPECT_EQ(reversed.times, s.before);
+  EXPECT_EQ(reversed.before, s.times);
+}
+
 TEST(Sequences, BeforeMainShocksByHand) {
   // The main shock is at 100; the event at 99 has not ended then, 97 is too small, 79 is too early.
   const EventTable table =

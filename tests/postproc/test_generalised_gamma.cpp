@@ -583,4 +583,25 @@ TEST(RollOff, FindsItsPower) {
   }
 }
 
+TEST(RollOff, GainOfAPowerLawIsThatOfChance) {
+  // Twice the gain in ln L of a scale that is at its limit: half of the time 0, otherwise
+  // chi-squared with one degree of freedom, above 2.71 in one of twenty.
+  int above = 0, none = 0;
+  for (unsigned long seed = 1; seed <= 200; ++seed) {
+    LSM::Random random(seed);
+    EventTable table;
+    for (int n = 0; n < 500; ++n) {
+      LSM::EventSummary shock;
+      shock.size = 1e-4 * std::pow(random.uniform(), -0.25);
+      table.events.push_back(shock);
+    }
+    const double gain = roll_off(table, 1e-4).gain;
+    ASSERT_GE(gain, 0.0) << "seed " << seed;
+    above += gain > 2.706;
+    none += gain < 0.01;
+  }
+  EXPECT_NEAR(above, 10, 10);  // three standard deviations
+  EXPECT_NEAR(none, 108, 22);
+}
+
 }  // namespace

@@ -249,6 +249,15 @@ def test_compare(do, no):
     before = Path("d.csv").read_bytes()
     do("compare a.csv b.csv c.csv -o d")
     assert Path("d.csv").read_bytes() == before, "not the same twice"
+    # A catalogue without small events is compared from its smallest on, whichever comes first.
+    Path("whole.csv").write_text(Path("b.csv").read_text())
+    lines = Path("b.csv").read_text().splitlines()
+    at = lines[0].startswith("#") and next(n for n, line in enumerate(lines) if line[0] not in "#")
+    kept = [line for line in lines[at + 1:] if float(line.split(",")[5]) >= 3]
+    Path("large.csv").write_text("\n".join([*lines[:at], "# min_size = 3", lines[at], *kept]) + "\n")
+    for order in "whole.csv large.csv", "large.csv whole.csv":
+        assert verdicts(do(f"compare {order} -o d")) == (2, 0), order
+        assert {row["smallest_size"] for row in table("d.csv")} == {"3"}, order
     # Times twice as long have the same form.
     made("twice.csv", 10, 400)
     assert verdicts(do("compare a.csv twice.csv --rescale -o d"))[0] == 2
@@ -419,6 +428,8 @@ def test_compressed(do, way):
     text = Path("events.csv").read_bytes()
     Path("packed").write_bytes(way(text))
     Path("packed-pe").write_bytes(way(Path("pe.bin").read_bytes()))
+    piped(do, "pick", "cat packed-pe", "--lenient -o piped.csv")
+    assert rows("piped.csv") == rows("picked.csv")
     # Two compressed halves, one after the other, are one file.
     head = text.splitlines(True)
     Path("halves").write_bytes(way(b"".join(head[:7])) + way(b"".join(head[7:])))
@@ -757,4 +768,6 @@ def test_options_of_earthquakes(do, no):
     no("is a date, but no catalogue is of earthquakes", f"intervals {chain} --from 1984-01-01 -o x")
     no("is a number, but all catalogues are of earthquakes, expected a date", f"intervals {CALIFORNIA} --from 1984 -o x")
     no("from 'monday': expected a model time, or for earthquakes a date", f"intervals {CALIFORNIA} --from monday -o x")
+    no("from '9': a second model time, expected one for all catalogues", f"count {chain} --from 5 --from 9")
+    no("to '1990-01-01': a second date, expected one", f"count {CALIFORNIA} --to 1985-01-01 --to 1990-01-01")
     no("expected W/E/S/N in degrees", f"intervals {CALIFORNIA} --region 1/2/3 -o x")

@@ -180,6 +180,9 @@ def test_ensemble(slider, ran, no):
     ran(SHORT, "--steps 300000 --ensemble sets.txt --catalogue set.csv --json all.json")
     ran(SHORT, "--steps 300000 --kl 0.05 --catalogue alone.csv")
     same("named.csv", "alone.csv", 5)
+    Path("equal.txt").write_text("--seed 1\n--catalogue=equal.csv --seed 2\n")
+    ran(SHORT, "--steps 300000 --ensemble equal.txt --catalogue of.csv")
+    assert header("equal.csv")["seed"] == "2"
     assert header("set-1.csv")["kl"] == "0.02"
     Path("wrong.txt").write_text("--seed 1\n--kl -1\n")
     no("--ensemble wrong.txt", "run 2 of the ensemble: .*--kl")

@@ -257,6 +257,8 @@ def test_tables():
     assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"]
     found = read("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
     assert {name: one.ranks for name, one in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}
+    # Numbers keep their digits.
+    assert "time=1234567.5" in read("run,program,time\nf,slider,1234567.5\n")["f"].words
     # Values of several words are quoted; a run without a name is named after them, without blanks.
     words = "leap=yes 'leaping=slip 1.5 grow 60'"
     found = read(f"run,program,law,settings\nl,fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n")
