@@ -11,15 +11,21 @@
 #include "fix_lsm_record.h"
 #include "lsm_mover.h"
 #include "lsm_ranks.h"
+#include "lsm_scene.h"
 #include "modify.h"
 #include "output.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
+#include <set>
 
 using namespace LAMMPS_NS;
+
+// quit ends the program without destroying styles
+static std::set<ComputeLSMEvents *> living;
 
 // entries of the global vector, followed by those of the ledger
 enum { EVENTS, LAST_SIZE, RATE, IN_EVENT, PE, PE_LINK, PE_CONTACT, PE_TANGENTIAL, NVECTOR };
@@ -48,14 +54,19 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       id_of_fix() + (settings.records_slip() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
   recorder->owner = this;
   update->first_update = 0;
+  [[maybe_unused]] static const int asked = std::atexit([] {
+    for (auto *one : living)
+      if (one->update->whichflag == 0) one->write_rest();    // not after an error within a run
+  });
+  living.insert(this);
   vector = new double[size_vector];    // allocated last, as the destructor does not run if the
                                        // constructor throws
 }
 
 ComputeLSMEvents::~ComputeLSMEvents()
 {
-  // rank 0 has received all complete intervals at the end of the last run
-  on_rank_0([this] { stream->write_rest(options.unfinished); });
+  living.erase(this);
+  write_rest();
   sources.release();
 
   // 'run N pre no' needs an init, too, which sets up LAMMPS' lists of fixes and what the styles
@@ -63,6 +74,12 @@ ComputeLSMEvents::~ComputeLSMEvents()
   if (update) update->first_update = 0;
   if (recorder && modify && modify->get_fix_by_id(id_of_fix())) modify->delete_fix(id_of_fix());
   delete[] vector;
+}
+
+// rank 0 has received all complete intervals at the end of the last run
+void ComputeLSMEvents::write_rest()
+{
+  on_rank_0([this] { stream->write_rest(options.unfinished); });
 }
 
 void ComputeLSMEvents::init()
@@ -75,7 +92,13 @@ void ComputeLSMEvents::init()
                id, id_of_fix());
   sources.check(recorder, options.ledger);
   sources.find(options.ledger);
+  if (settings.records_slip() && LSMScene::pairs_on_inner_level(update))
+    error->all(FLERR,
+               "Compute lsm/events {}: {} need one force of contacts a step; with run_style respa "
+               "put pair on the outermost level",
+               id, settings.asked_by());
   const bool leaps = sources.leap() != nullptr;
+  if (leaps) sources.leap()->keep(2 * bigint(options.block) + 2);    // one is sent, one is filled
   if (leaps && !settings.history_file.empty())
     error->all(
         FLERR,
@@ -141,7 +164,7 @@ std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
 void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
 {
   const bigint step = update->ntimestep;
-  const double time = clock.at(step);
+  const double time = time_of(step);
   const bool plane = domain->dimension == 3;
   const double bins = domain->prd[0] / settings.bin_width *
                       (plane ? std::max(1.0, domain->prd[2] / settings.bin_width) : 1.0);
@@ -201,6 +224,11 @@ void ComputeLSMEvents::setup_record()
 {
   guard.begin_run();
   if (!opened) open_files();
+  if (fault_begun && last_recorded != update->ntimestep)
+    error->all(FLERR,
+               "Compute lsm/events {}: the step was {} and is {} now, but {} follow the steps one "
+               "by one; uncompute it first, and use other files",
+               id, last_recorded, update->ntimestep, settings.asked_by());
   check_box();
   change_dt();
   leave_out_jump();

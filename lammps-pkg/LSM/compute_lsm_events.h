@@ -78,6 +78,7 @@ class ComputeLSMEvents : public Compute {
   double begin[2] = {0.0, 0.0}, period[2] = {0.0, 0.0};
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
+  void write_rest();
   void set_memory();
   void open_files();
   std::vector<LSM::Output> restart_files() const;

@@ -23,9 +23,6 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr bigint KEPT_STEPS =
-    20000;    // of changes of the rate, for steps that are processed later
-
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     LSMKeptFix(_lmp, narg, arg), dt(update->dt)
 {
@@ -55,6 +52,7 @@ LSM::Keywords FixLSMLeap::keywords()
 
 FixLSMLeap::~FixLSMLeap()
 {
+  if (!update) return;    // LAMMPS ends
   // the other fixes may already be gone
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
   for (auto *p : lsm_fixes<FixLSMNVE>(modify)) p->raise_viscosity(0.0);
@@ -111,6 +109,7 @@ void FixLSMLeap::reset_dt()
 void FixLSMLeap::setup(int /*vflag*/)
 {
   begun = true;
+  looked = update->ntimestep;
 
   // uniform shear between the plates: v grows from -fast to fast over the width
   loading_energy = 0.5 * group->mass(0) * fast * fast / 3.0;
@@ -133,7 +132,7 @@ bool FixLSMLeap::leaps() const
 
 double FixLSMLeap::model_time(bigint step) const
 {
-  if (changes.empty()) return update->atime;
+  if (changes.empty()) return time_of_steps();
   auto last = changes.rbegin();
   while (last->step > step && std::next(last) != changes.rend()) ++last;
   return last->time + static_cast<double>(step - last->step) * last->rate;
@@ -160,7 +159,7 @@ void FixLSMLeap::set_factor(double value)
   if (value == factor) return;
   const bigint now = update->ntimestep;
   changes.push_back({now, model_time(now), value * dt});
-  while (changes.size() > 2 && changes[1].step < now - KEPT_STEPS) changes.pop_front();
+  while (changes.size() > 2 && changes[1].step < now - kept) changes.pop_front();
   factor = plates->loading = value;
   for (auto *p : contacts) p->time_ratio = value;
 }
@@ -185,7 +184,10 @@ void FixLSMLeap::end_of_step()
     p->slip_moment = 0.0;
   }
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
-  const double slipping = all[0] / span / (2.0 * fast * domain->prd[0]);
+  // since the beginning of the run, if that was after the last check
+  const double counted = static_cast<double>(update->ntimestep - looked) * dt;
+  looked = update->ntimestep;
+  const double slipping = all[0] / counted / (2.0 * fast * domain->prd[0]);
   const double most = fast / fabs(plates->driving_velocity());
 
   steps_time += span;

@@ -32,8 +32,10 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   double compute_scalar() override { return model_time(update->ntimestep); }
   double compute_vector(int) override;
 
-  double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
-  std::string settings();                  // for headers of files
+  double model_time(bigint step) const;    // at one of the last steps
+  // asks for the model time of so many of the last steps
+  void keep(bigint steps) { kept = MAX(kept, steps); }
+  std::string settings();    // for headers of files
   double fastest() const { return fast; }
   template <class Self, class State> static void visit(Self &, State &);
 
@@ -60,6 +62,8 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   std::vector<class FixLSMNVE *> integrators;
   std::vector<class PairLSMFriction *> contacts;
   double dt, loading_energy = 0.0;
+  bigint kept = 20000;    // steps for which changes of the rate are kept
+  bigint looked = 0;      // step of the last check, or of the beginning of the run
 
   // state; the model time is extrapolated from the last change of its rate
 

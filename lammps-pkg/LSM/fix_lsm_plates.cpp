@@ -105,7 +105,8 @@ void FixLSMPlates::init()
     else if (!vy_known)
       plate[p].vy = velocity[1];
   }
-  vy_known = true;
+  if (update->whichflag == 1)
+    vy_known = true;    // velocities may still be set before the first run
 
   integrators = lsm_fixes<FixLSMNVE>(modify);
 

@@ -12,6 +12,7 @@
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
 #include "variable.h"
@@ -247,6 +248,12 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
             "radius, but may by a tenth; its contact is too soft for the normal traction, or "
             "the faces do not touch",
             atom->tag[i], 2.0 * more / radius[i]);
+      if (2.0 * more > neighbor->skin)
+        error->one(FLERR,
+                   "Fix lsm/traction: particle {} would overlap its partner by {:.3g}, but the "
+                   "lists of neighbors reach only the skin {} beyond particles that touch; give a "
+                   "larger skin, or a stiffer contact",
+                   atom->tag[i], 2.0 * more, neighbor->skin);
       contact_radius[i] += more;
     }
   }

@@ -5,6 +5,7 @@
 #include "comm.h"
 #include "error.h"
 #include "input.h"
+#include "timer.h"
 #include "update.h"
 #include "variable.h"
 
@@ -70,6 +71,11 @@ void LSMRun::command(int narg, char **arg)
     save(std::to_string(step));
     const bigint pieces = (step - after + every - 1) / every;
     if (pieces >= 2) remove(after + every * (pieces - 2));
+    if (step < next && timer->is_timeout()) {    // LAMMPS would leave out all further pieces
+      if (comm->me == 0)
+        utils::logmesg(lmp, "Stopped at step {} by a time limit or fix halt\n", step);
+      input->one("quit 75");
+    }
     if (step < last && stop_requested()) {
       if (comm->me == 0)
         utils::logmesg(lmp, "Stopped at step {}, as there was a file {}.stop, which is removed\n",

@@ -250,6 +250,11 @@ void PairLSMFriction::init_style()
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
 
+  if (table.law->needs_time && LSMScene::pairs_on_inner_level(update))
+    error->all(FLERR,
+               "Pair style lsm/friction: law {} needs the time of a step; with run_style respa put "
+               "pair on the outermost level",
+               table.law->name);
   if (update->whichflag) check_periods();
   if (update->whichflag && locate_onset && neighbor->skin == 0.0 && comm->me == 0)
     error->warning(FLERR,

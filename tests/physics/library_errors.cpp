@@ -63,6 +63,7 @@ class Session {
   ~Session() { lammps_close(lammps_); }
 
   void run(const std::string &commands) { lammps_commands_string(lammps_, commands.c_str()); }
+  double thermo(const char *name) { return lammps_get_thermo(lammps_, name); }
   std::string error() {
     char text[1024] = "";
     if (lammps_has_error(lammps_)) lammps_get_last_error_message(lammps_, text, sizeof text);
@@ -147,6 +148,18 @@ int main(int argc, char **argv) {
                       "fix print all print 5 '${bad}' screen no\nrun 1000\n",
                   "Divide by 0");
   }
+  // Fix lsm/nve clears forces itself until a run ends, also in an error: forces after that are the
+  // same.
+  double forces[2];
+  for (const char *how : {"soft message no", "hard"}) {
+    Session session;
+    session.run(start + "variable n equal step\nfix stop all halt 1 v_n >= 20 error " + how +
+                "\nrun 100\n");
+    session.error();
+    session.run("unfix stop\nfix push all addforce 0 0 0\nrun 0\n");
+    forces[*how == 'h'] = session.thermo("fnorm");
+  }
+  check(forces[0] > 0.0 && forces[0] == forces[1], "forces after an error within a run");
   // The program continues.
   {
     Session session;

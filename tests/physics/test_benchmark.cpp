@@ -286,6 +286,8 @@ TEST_F(Benchmark, WrongInputIsNamed) {
                   {"share spacing", "at the same x"}));
   EXPECT_TRUE(failed_with(run_text(lattice("create_lsm_fault lattice length 41 width 16")),
                           {"lattice spacing is missing; needed are length, width and spacing"}));
+  EXPECT_TRUE(failed_with(run_text(begin + "neighbor 1e-4 bin\nrun 0\n"),
+                          {"would overlap its partner", "give a larger skin"}));
   EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"keyword 'seed'"}));
   EXPECT_TRUE(failed_with(run_text(lattice(created + " types 4")), {"types is 4", "at least 6"}));
   EXPECT_TRUE(

@@ -140,6 +140,36 @@ static std::string sheared_state(const std::string &dt, const std::string &event
 }
 
 // A is the change of PE per step, so half a time step means half an A.
+// Files that a continued run begins are continued in turn.
+TEST_F(Restart, GoesOnWithFilesOfAContinuedRun) {
+  const auto shear = [](const std::string &files, const std::string &resume) {
+    return "variable velocity index 0.03\n" +
+           fault_shear("stride 1000 resume " + resume + " catalogue " + files + ".csv series " +
+                       files + ".pe ruptures " + files + ".ruptures") +
+           "thermo 1000\n";
+  };
+  const auto again = [](const std::string &restart) {
+    return "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode "
+           "single cutoff 3.6\nread_restart " +
+           restart + "\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n";
+  };
+  ASSERT_TRUE(succeeded(run_text(fault_read() + shear("one", "no") +
+                                 "run 3500\nwrite_restart one.restart\nrun 3000\n")));
+  ASSERT_TRUE(succeeded(run_text(again("one.restart") + shear("two", "no") +
+                                 "run 200\nwrite_restart two.restart\nrun 800\nwrite_restart "
+                                 "three.restart\nrun 10\n")));
+  // at a step before its first sample, and after some events
+  for (const auto &[restart, steps] : {std::pair{"two.restart", "2800"}, {"three.restart", "2000"}})
+    ASSERT_TRUE(succeeded(run_text(again(restart) + shear("two", "yes") + "run " + steps + "\n")));
+  std::vector<std::int64_t> whole, parts;
+  for (const auto &event : unit::read_catalogue(path("one.csv")).events)
+    if (event.step_end > 3500) whole.push_back(event.step_end);
+  for (const auto &event : unit::read_catalogue(path("two.csv")).events)
+    parts.push_back(event.step_end);
+  EXPECT_EQ(parts, whole);
+  EXPECT_GE(whole.size(), 5u);
+}
+
 TEST_F(Restart, PickerFollowsTheTimeStep) {
   for (int ranks : {1, 2})
     for (const char *memory : {"lambda 0.99", "memory 3.0"}) {
@@ -221,6 +251,22 @@ TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
 }
 
 // The header of a file has only one time step.
+// Plates take over velocities that are set before the first run, whatever looked at the system.
+TEST_F(Restart, PlatesTakeVelocitiesThatAreSetBeforeTheFirstRun) {
+  const auto moved = [](const std::string &before) {
+    const Result r =
+        run_text(fault_read() +
+                 "fix move blocks lsm/nve\nfix plates all lsm/plates lower upper stress 0.006\n" +
+                 before + "velocity all set 0 0.01 0\nthermo_style custom step ke f_plates[10]\n" +
+                 "thermo_modify norm no format float %.17g\nrun 10\n");
+    EXPECT_TRUE(succeeded(r));
+    return r;
+  };
+  const Result plain = moved("");
+  EXPECT_GT(plain.last("f_plates[10]"), 1e-4);
+  EXPECT_EQ(moved("write_data early.data\n").thermo, plain.thermo);
+}
+
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
   for (const char *files : {"catalogue one.csv", "series one.pe"})

@@ -383,6 +383,32 @@ TEST_F(Leap, CatalogueHasModelTimes) {
   EXPECT_TRUE(stretched);
 }
 
+// Slip between two checks is found, though a run ends between them, and times are those of the
+// steps, however late they are processed.
+TEST_F(Leap, PiecesOfARunAndBlocksOfSamplesChangeNothing) {
+  const std::string scene = slow(
+      "fix leap all lsm/leap plates fast 0.005 slip 0.1 calm 0.6 rest 0.06 viscosity 0.3 ramp "
+      "6 look 0.6\n",
+      "f_leap f_leap[6] c_events");
+  const auto variables = [](const char *prefix) {
+    return Variables{{"prefix", prefix}, {"dt", "0.03"}, {"velocity", "0.001"}};
+  };
+  const Result whole = run_text(scene + "run 8000\n", variables("whole"));
+  ASSERT_TRUE(succeeded(whole));
+  EXPECT_GE(whole.last("f_leap[6]"), 2.0);  // leaps that ended
+  const Result short_runs = run_text(
+      scene + "variable n loop 571\nlabel again\nrun 14 post no\nnext n\njump SELF again\n",
+      variables("short"));
+  ASSERT_TRUE(succeeded(short_runs));
+  EXPECT_NEAR(short_runs.last("f_leap[6]"), whole.last("f_leap[6]"), 1.0);
+  EXPECT_NEAR(short_runs.last("f_leap"), whole.last("f_leap"), 0.1 * whole.last("f_leap"));
+  std::string late = scene;
+  const std::string compute = "all lsm/events ledger yes";
+  late.replace(late.find(compute), compute.size(), compute + " block 15000");
+  ASSERT_TRUE(succeeded(run_text(late + "thermo 0\nrun 8000\n", variables("late"))));
+  EXPECT_EQ(read_file(path("late.csv")), read_file(path("whole.csv")));
+}
+
 // A series has the time of each sample, ruptures have model times, and both continue unchanged.
 TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string recorded =

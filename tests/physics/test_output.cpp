@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What LAMMPS users expect: runs in pieces, data files, local computes.
 #include "fault_scene.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -21,6 +22,41 @@ TEST_F(Output, RunAfterRunEqualsOneRun) {
     EXPECT_LT(off, 1e-9);
     EXPECT_EQ(one.last("c_events"), many.last("c_events"));
   }
+}
+
+// LAMMPS' quit destroys no style.
+TEST_F(Output, QuitWritesWhatIsHeldBack) {
+  for (int ranks : {1, 2}) {
+    const std::string shear =
+        fault_read() +
+        fault_shear(
+            "catalogue ${prefix}.csv ruptures ${prefix}.ruptures unfinished yes interval "
+            "200 slipping 0.1") +
+        "thermo 1000\nrun 2950\n";
+    ASSERT_TRUE(succeeded(run_text(shear, {{"prefix", "end"}}, ranks)));
+    ASSERT_TRUE(succeeded(run_text(shear + "quit\n", {{"prefix", "quit"}}, ranks)));
+    ASSERT_TRUE(
+        succeeded(run_text(shear + "uncompute events\nquit\n", {{"prefix", "gone"}}, ranks)));
+    for (const char *file : {".csv", ".ruptures"}) {
+      const std::string whole = read_file(path(std::string("end") + file));
+      EXPECT_EQ(read_file(path(std::string("quit") + file)), whole) << file;
+      EXPECT_EQ(read_file(path(std::string("gone") + file)), whole) << file;
+    }
+    const auto ruptures = unit::read_catalogue(path("end.ruptures")).events;
+    ASSERT_FALSE(ruptures.empty());
+    EXPECT_GE(ruptures.back().step_end, 2800) << "no rupture was open at the end";
+  }
+}
+
+// fix halt, or a time limit, makes LAMMPS leave out all further runs.
+TEST_F(Output, PiecesEndWithAFixHalt) {
+  const Result r = run_text(fault_read() + fault_shear("") +
+                            "variable steps equal step\nfix enough all halt 10 v_steps >= 250 "
+                            "error soft\nlsm_run 500 prefix halted every 100\n");
+  EXPECT_EQ(r.exit_code, 75);
+  EXPECT_EQ(r.lines_with("Stopped at step 250 by a time limit or fix halt").size(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(path("halted.restart.250")));
+  EXPECT_FALSE(std::filesystem::exists(path("halted.restart.end")));
 }
 
 // Contacts across the borders of ranks and of the box keep their springs.

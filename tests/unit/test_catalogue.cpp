@@ -674,6 +674,22 @@ TEST_F(CatalogueResume, RefusesAnotherNumberOfEventsAndLeavesTheFile) {
   EXPECT_EQ(resume(writer, file(), some_info(), 209, 1), 1);
 }
 
+TEST_F(CatalogueResume, GoesOnWithAFileThatAContinuedRunBegan) {
+  // Events 1 to 24 are in another file.
+  CatalogueWriter begun;
+  begun.create(file(), some_info());
+  begun.close();
+  EXPECT_EQ(resume(begun, file(), some_info(), 2409, 24), 0);
+  for (int id : {25, 26, 27}) begun.write(some_event(id));
+  begun.close();
+  CatalogueWriter writer;
+  EXPECT_EQ(resume(writer, file(), some_info(), 2610, 26), 2);
+  writer.close();
+  EXPECT_TRUE(
+      contains(message_of<FileError>([&] { resume(writer, file(), some_info(), 2610, 27); }),
+               "cannot resume: 26 events up to the checkpoint, expected 27"));
+}
+
 TEST_F(CatalogueResume, LookingForThePlaceToCutChangesNothing) {
   write_events(3);
   spill(file(), slurp(file()) + "4,12");

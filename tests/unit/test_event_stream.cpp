@@ -162,6 +162,31 @@ class EventStreamFiles : public unit::Files {
   }
 };
 
+// After an error within a run nobody knows the slip of the incomplete interval.
+TEST_F(EventStreamFiles, WhatWaitsForTheSlipOfAnIntervalIsLeftOutIfThatIsNotKnown) {
+  const EventSettings whole = pe_settings("whole", true), cut = pe_settings("cut", true);
+  std::size_t most = 0;
+  for (std::int64_t steps = 120; steps < 130; ++steps) {
+    MadeUpRun known(whole), unknown(cut);
+    for (MadeUpRun *one : {&known, &unknown}) {
+      one->begin();
+      one->run(0, steps, 10);
+    }
+    known.stream->end_run(steps, known.sums);
+    for (MadeUpRun *one : {&known, &unknown}) {
+      one->stream->write_rest(false);
+      one->stream.reset();
+    }
+    const auto with = events_of(whole), without = events_of(cut);
+    ASSERT_LE(without.size(), with.size());
+    most = std::max(most, with.size() - without.size());
+    for (const EventSettings &one : {whole, cut})
+      for (const std::string &file : {one.catalogue_file, one.series_file})
+        std::filesystem::remove(file);
+  }
+  EXPECT_EQ(most, 1U) << "no drop was waiting";
+}
+
 TEST_F(EventStreamFiles, CatalogueIsWhatThePickerFindsInTheSeries) {
   MadeUpRun run(pe_settings("a"));
   run.settings.series_stride = 1;

@@ -95,7 +95,13 @@ void LSMEventSources::find(bool ledger)
   leap_ = nullptr;
   works_ = lsm_fixes<LSMWorkSource>(modify);
   for (const auto &ifix : modify->get_fix_list()) {
-    if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
+    if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) {
+      if (plates_)
+        error->all(FLERR,
+                   "Compute lsm/events {}: fixes {} and {} are both lsm/plates, expected one",
+                   settings_.name, plates_->id, p->id);
+      plates_ = p;
+    }
     if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
   }
   integrators_ = lsm_fixes<FixLSMNVE>(modify);

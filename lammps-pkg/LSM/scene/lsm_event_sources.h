@@ -36,7 +36,7 @@ class LSMEventSources : protected Pointers {
 
   /// The styles that record contacts.
   const std::vector<LSMEnergySource *> &styles() const { return styles_; }
-  const FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
+  FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
   /// Bit of the group of the lower (0) or upper (1) face of the fault.
   int face(int upper) const { return upper ? faces_.second : faces_.first; }
   bool has_links() const { return links_; }

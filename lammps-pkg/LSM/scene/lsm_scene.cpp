@@ -13,6 +13,7 @@
 #include "neigh_list.h"
 #include "numerics/sum.h"
 #include "pair_lsm_free.h"
+#include "respa.h"
 #include "update.h"
 
 #include <algorithm>
@@ -168,6 +169,12 @@ namespace LSMScene {
   {
     if (utils::strmatch(lmp->update->integrate_style, "^respa"))
       lmp->error->all(FLERR, "{} does not work with run_style respa", who);
+  }
+
+  bool pairs_on_inner_level(const Update *update)
+  {
+    const auto respa = dynamic_cast<const Respa *>(update->integrate);
+    return respa && respa->level_pair < respa->nlevels - 1;
   }
 
   void refuse_changing_radii(LAMMPS *lmp, const std::string &who)

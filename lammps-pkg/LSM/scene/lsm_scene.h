@@ -35,6 +35,9 @@ namespace LSMScene {
   /// for one that adds to the cells of a grid.
   bool may_rely_on_skin(Modify *);
 
+  /// Whether contact forces are computed several times in a step, by run_style respa.
+  bool pairs_on_inner_level(const Update *);
+
   /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
   /// across it, and the viscosity of a dashpot along it. Unless `both`, another rank or image adds
   /// what j feels.

@@ -26,6 +26,7 @@ template <class Law> static LSMLaw entry()
           Law::parameters,
           static_cast<int>(std::size(Law::parameters)),
           Law::state_size,
+          Law::needs_time,
           Law::named,
           [](const double *values) { return Law::fits(from<Law>(values)); },
           [](const double *values, double *state) { Law::begin(from<Law>(values), state); }};

@@ -22,6 +22,7 @@ struct LSMLaw {
   const LSM::Parameter *parameters;
   int count;
   int state_size;
+  bool needs_time;
   bool named;
   bool (*fits)(const double *);
   void (*begin)(const double *, double *);

@@ -109,7 +109,9 @@ void EventStream::end_run(std::int64_t step, const std::vector<double> &open_sum
 }
 
 void EventStream::write_rest(bool open_ruptures) {
-  if (locator_ && locator_->waiting() > 0)
+  // After an error within a run the slip of the incomplete interval is not known.
+  const bool known = locator_ && !last_sums_.empty() && last_step_ >= locator_->known_until();
+  if (known && locator_->waiting() > 0)
     locator_->finish(last_step_,
                      fault_row(grid_, last_sums_.data(), last_step_ - locator_->known_until()),
                      [this](const Event &drop) { write_drop(drop); });

@@ -307,15 +307,18 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
   start(info);
   // Events are in order of their ends, so the first one to drop is where the file is cut.
   Event event;
+  std::int64_t earlier = 0;  // events before a file that was begun by a continued run
   while (reader.next(event) && event.step_end <= last_step) {
+    if (rows_ == 0) earlier = event.id - 1;
     last_ = event;
     ++rows_;
     length = reader.reader_.end();
   }
   if (reader.reader_.foreign())
     refuse(path, "Windows line ends or a byte order mark, expected the file as the run wrote it");
-  if (expected >= 0 && rows_ != expected)
-    refuse(path, std::to_string(rows_) + " events up to the checkpoint, expected " +
+  if (rows_ == 0) earlier = std::max<std::int64_t>(expected, 0);  // it may have been
+  if (expected >= 0 && earlier + rows_ != expected)
+    refuse(path, std::to_string(earlier + rows_) + " events up to the checkpoint, expected " +
                      std::to_string(expected));
   file_.keep(path, length);
 }

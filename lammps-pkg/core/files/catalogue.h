@@ -141,7 +141,8 @@ class CatalogueWriter : public files::ResumableFile {
   /// Inspects the catalogue of a run restarted from last_step, which cut() will continue: checks
   /// that the header is what create() would write, and finds the first event that ended after
   /// last_step, or a truncated last line.
-  /// \param expected number of events before the cut, if not negative
+  /// \param expected number of events before the cut, if not negative, with those before the first
+  /// one in the file, which may have been begun by a continued run
   /// \throws FileError naming the first parameter that differs, the first bad line, or the number
   /// of events.
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
