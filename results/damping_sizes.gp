@@ -71,7 +71,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (2933 events)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (9451 events)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \

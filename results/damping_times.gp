@@ -66,7 +66,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 4 title "fault, length 945 (9835 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (2932 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (9450 times)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
      keyentry with linespoints lt 6 title "fault, length 1890 (1594 times)", \
@@ -74,7 +74,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      [0.079432823472428096:199.52623149688822] '+' using 1:(0.088260063043893291*$1**(-0.13511299354116579)*exp(-$1**(1)/14.848448612106269)) with lines lt 2 dt 3 lw 2 notitle, \
      [0.09999999999999995:125.89254117941687] '+' using 1:(0.12801540160335351*$1**(-0.37784567606463637)*exp(-$1**(1)/15.140546885258052)) with lines lt 3 dt 3 lw 2 notitle, \
      [0.079432823472428096:199.52623149688822] '+' using 1:(0.11927121519559769*$1**(-0.33605590284969677)*exp(-$1**(1)/15.496266701413752)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.079432823472428096:158.48931924611153] '+' using 1:(0.11659662971533372*$1**(-0.38030116175318185)*exp(-$1**(1)/17.691767119836236)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.079432823472428096:251.18864315095834] '+' using 1:(0.11861430137619933*$1**(-0.38699908574778941)*exp(-$1**(1)/17.466868483006895)) with lines lt 5 dt 3 lw 2 notitle, \
      [0.079432823472428096:125.89254117941687] '+' using 1:(0.11462636176696735*$1**(-0.31588192428987405)*exp(-$1**(1)/15.737751909119599)) with lines lt 6 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
