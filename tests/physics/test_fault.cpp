@@ -139,7 +139,6 @@ static std::string sheared_state(const std::string &dt, const std::string &event
          fault_shear(events);
 }
 
-// A is the change of PE per step, so half a time step means half an A.
 // Files that a continued run begins are continued in turn.
 TEST_F(Restart, GoesOnWithFilesOfAContinuedRun) {
   const auto shear = [](const std::string &files, const std::string &resume) {
@@ -170,6 +169,7 @@ TEST_F(Restart, GoesOnWithFilesOfAContinuedRun) {
   EXPECT_GE(whole.size(), 5u);
 }
 
+// A is the change of PE per step, so half a time step means half an A.
 TEST_F(Restart, PickerFollowsTheTimeStep) {
   for (int ranks : {1, 2})
     for (const char *memory : {"lambda 0.99", "memory 3.0"}) {
@@ -250,7 +250,6 @@ TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
     }
 }
 
-// The header of a file has only one time step.
 // Plates take over velocities that are set before the first run, whatever looked at the system.
 TEST_F(Restart, PlatesTakeVelocitiesThatAreSetBeforeTheFirstRun) {
   const auto moved = [](const std::string &before) {
@@ -267,6 +266,7 @@ TEST_F(Restart, PlatesTakeVelocitiesThatAreSetBeforeTheFirstRun) {
   EXPECT_EQ(moved("write_data early.data\n").thermo, plain.thermo);
 }
 
+// The header of a file has only one time step.
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
   for (const char *files : {"catalogue one.csv", "series one.pe"})

@@ -544,10 +544,10 @@ TEST_F(Ruptures, StepsThatDoNotFollowEachOtherAreRefused) {
   const std::string run = sheared(found) + "run 100\n";
   EXPECT_TRUE(failed_with(run_text(run + "reset_timestep 1003\nrun 10\n", {{"prefix", "steps"}}),
                           {"the step was 100 and is 1003 now, but ruptures"}));
-  const std::string inner =
-      "unfix move\nunfix plates\nfix move all nve\nrun_style respa 2 4 bond 1 pair ";
-  const std::string of_inner = sheared(found) + inner;
-  EXPECT_TRUE(failed_with(run_text(of_inner + "1\nrun 1\n", {{"prefix", "respa"}}),
+  const std::string respa = sheared(found) +
+                            "unfix move\nunfix plates\nfix move all nve\nrun_style respa 2 4 bond "
+                            "1 pair 1\nrun 1\n";
+  EXPECT_TRUE(failed_with(run_text(respa, {{"prefix", "respa"}}),
                           {"ruptures need one force of contacts a step"}));
   EXPECT_TRUE(failed_with(
       run_text(sheared(found) + "unfix plates\ngroup left id 1:200\ngroup a intersect lower "
