@@ -84,8 +84,7 @@ if [ "$count" -gt 1 ]; then
   "$bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
     --title "Fault of length 120: around the largest event"
 fi
-# These are the wave speeds in the packing.
-"$bin/postproc" explore $catalogue --p-speed 2.00 --s-speed 1.05 --output first.html --title "Fault of length 120"
+"$bin/postproc" explore $catalogue --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
 echo "Open in a browser to explore the run: file://$run/first.html"
 echo "Time: packages $packages_took s, source and programs $programs_took s, the fault $fault_took s," \

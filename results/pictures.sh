@@ -76,7 +76,7 @@ for part; do
       chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2760 --virtual-time-budget=20000 \
         --screenshot=page.png "file://$new/first.html" >out 2>&1
       PYTHONPATH=$root/python python3 -m lsm.ruptures first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) \
-        --to $((${time%.*} + 3000)) --p-speed 2.00 --s-speed 1.05 -o rupture
+        --to $((${time%.*} + 3000)) -o rupture
       look=$((begin + (end - begin) / 3))
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var extra fault_image -var prefix look -var steps "$steps" \
         -var from "$look" -var to "$look" -var every 1000 </dev/null >out

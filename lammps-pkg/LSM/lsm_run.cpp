@@ -47,9 +47,7 @@ void LSMRun::command(int narg, char **arg)
   for (const std::string &one : further_variables)
     if (input->variable->find(one.c_str()) < 0)
       error->all(FLERR, "lsm_run: there is no variable {}", one);
-  if (prefix.find_first_of("*%") != std::string::npos)
-    error->all(FLERR, "lsm_run: prefix is {}, but must be the beginning of names without * and %",
-               prefix);
+  LSMScript::require_plain(lmp, "lsm_run: prefix", prefix);
   const std::string problem = lsm_on_0(world, [this] {
     const fs::path folder = fs::absolute(prefix).parent_path();
     if (!fs::is_directory(folder))

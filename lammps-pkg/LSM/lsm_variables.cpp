@@ -186,6 +186,8 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
   const std::string expected = one.expected(value);
   if (!expected.empty())
     error->all(FLERR, "Variable {} is '{}', but must be {}", one.name, value, expected);
+  if (one.accepted == LSMSceneVariable::SCENE)
+    LSMScript::beside(lmp, infile, value + ".in", "Variable " + one.name);
   // LAMMPS' commands do not accept 1e5 as a whole number
   if (one.accepted.compare(0, 6, "whole ") == 0 && !utils::is_integer(value)) {
     input->variable->set(one.name + " delete");

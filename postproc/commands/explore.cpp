@@ -11,6 +11,7 @@
 #include "page.h"
 #include "run_files.h"
 #include "series_input.h"
+#include "units.h"
 
 namespace LSM::postproc {
 
@@ -82,20 +83,18 @@ class Explore : public Command {
     catalogues_.add_to(command);
     catalogues_.add_magnitude_bin(command);
     catalogues_.details = most_events;
-    page_.program = "postproc " POSTPROC_VERSION;
+    page_ = {"", ModelUnits::model_p_speed, ModelUnits::model_s_speed,
+             "postproc " POSTPROC_VERSION};
     OptionGroup own(command);
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
     for (RunFiles *files : {&series_, &ruptures_, &histories_}) files->add_to(command);
     OptionGroup slip(command, "Slip");
     slip.add("--p-speed", page_.p_speed,
-             "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1, the regular lattice; 2.0 to 2.1 "
-             "in packings of create_lsm_fault)",
+             "Speed of P-waves, by default as measured in packings of create_lsm_fault (paper, "
+             "Eq. 4: 2.12 for k = m0 = 1, the regular lattice)",
              positive());
-    slip.add("--s-speed", page_.s_speed,
-             "Speed of S-waves † (that of P-waves over the root of 3, as in the regular "
-             "lattice; 1.0 to 1.1 in packings)",
-             positive());
+    slip.add("--s-speed", page_.s_speed, "Speed of S-waves, likewise †", positive());
   }
 
   /// Loads the runs with their drops of PE, and with the ruptures where a run has a catalogue of

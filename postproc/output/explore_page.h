@@ -47,9 +47,9 @@ struct ExploreRun {
 };
 
 struct ExploreSettings {
-  std::string title;                      ///< empty: label of the run, or number of runs
-  double p_speed = 2.12, s_speed = 1.22;  ///< wave speeds, drawn over the slip
-  std::string program;                    ///< name and version of the program
+  std::string title;                    ///< empty: label of the run, or number of runs
+  double p_speed = 0.0, s_speed = 0.0;  ///< wave speeds, drawn over the slip
+  std::string program;                  ///< name and version of the program
 };
 
 /// Returns the whole page, which needs no other file and no network.

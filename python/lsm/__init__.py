@@ -23,6 +23,9 @@ import numpy as np
 
 __all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "units", "Table"]
 
+# In packings by create_lsm_fault, in model units, as in postproc/statistics/units.h: speeds as measured
+P_SPEED, S_SPEED, DENSITY = 2.00, 1.05, 0.286
+
 _INTEGERS = ("event_id", "step_start", "step_end")
 
 
@@ -176,7 +179,7 @@ def rates(events, width, column="size"):
 def units(length, p_speed, density, thickness=None):
     """What one model unit of the fault is in SI, for a unit of length (m), a speed of P-waves (m/s), a density (kg/m^3) and a thickness (m;
     without it the unit of length): see postproc/units.md. A dict: length, time, velocity, stress, energy, moment."""
-    velocity = p_speed / 2.00  # speeds of P- and S-waves and density of packings in model units
-    stress, volume = density / 0.286 * velocity**2, length**2 * (thickness or length)
+    velocity = p_speed / P_SPEED
+    stress, volume = density / DENSITY * velocity**2, length**2 * (thickness or length)
     return dict(length=length, time=length / velocity, velocity=velocity, stress=stress, energy=stress * volume,
-                moment=density * (1.05 * velocity)**2 * volume)
+                moment=density * (S_SPEED * velocity)**2 * volume)

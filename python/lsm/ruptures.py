@@ -559,8 +559,8 @@ def parser():
     options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
     options.add_argument("--history", metavar="FILE", help="slip history of the first catalogue's run")
     add_time_window(options)
-    options.add_argument("--p-speed", type=float, default=2.12, help="speed of P-waves (paper, Eq. 4: %(default)s, the regular lattice)")
-    options.add_argument("--s-speed", type=float, default=1.22, help="speed of S-waves (Eq. 5: %(default)s)")
+    options.add_argument("--p-speed", type=float, default=lsm.P_SPEED, help="speed of P-waves (%(default)s; paper, Eq. 4: 2.12, the regular lattice)")
+    options.add_argument("--s-speed", type=float, default=lsm.S_SPEED, help="speed of S-waves (%(default)s; not printed)")
     options.add_argument(
         "--arrival", type=float, help="slip velocity above which the rupture has come to a place of a plane, for the map of times; "
         "default: that above which places slip")

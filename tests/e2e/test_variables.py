@@ -54,9 +54,14 @@ def test_what_is_beside_a_restart_file_is_checked_as_well(lmp, name, value):
 @pytest.mark.parametrize("name, value, accepted", [("stress", "high", "a number of at least 0"), ("kt", 0, "a number above 0"),
                                                    ("width", -3, "a number above 0"), ("stride", 0, "a whole number of at least 1"),
                                                    ("minsize", "nan", "a number of at least 0"), ("law", "a;b", "words of letters"),
-                                                   ("leap", "maybe", "no or yes")])
+                                                   ("leap", "maybe", "no or yes"), ("lambda", 1, "a number of at least 0 and less than 1")])
 def test_every_variable_has_a_rule(lmp, name, value, accepted):
     refused(lmp, small(**{name: value}), f"Variable {name} is '{value}', but must be {accepted}")
+
+
+def test_a_scene_that_is_missing_is_found_at_once(lmp):
+    """A scene of `extra` is read after the compression."""
+    assert "Step" not in refused(lmp, small(extra="nonsense"), "Variable extra: cannot read file .*nonsense.in").out
 
 
 def test_whole_numbers_may_have_exponents(lmp):

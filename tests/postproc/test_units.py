@@ -2,6 +2,7 @@
 """SI units of the fault: the same conversion in magnitudes, export and lsm.units."""
 import json
 import math
+import re
 import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
@@ -47,6 +48,13 @@ def test_units():
     # A normal stress of 0.022, and the plates of the paper: 1.9 GPa, 0.75 m/s
     assert 0.022 * unit["stress"] == pytest.approx(1869e6, rel=1e-3) and 0.00025 * unit["velocity"] == pytest.approx(0.75, abs=1e-3)
     assert lsm.units(100, 6000, 2700, thickness=5000)["moment"] == pytest.approx(50 * MOMENT)
+
+
+def test_speeds_are_those_of_the_packing_everywhere(postproc, catalogue):
+    catalogue("c.csv")
+    run(postproc, "explore c.csv -o c.html")
+    page = Path("c.html").read_text(encoding="utf-8")
+    assert [float(re.search(rf'"{name}":([0-9.]+)', page)[1]) for name in ("pSpeed", "sSpeed")] == [lsm.P_SPEED, lsm.S_SPEED]
 
 
 def test_export(postproc, catalogue):

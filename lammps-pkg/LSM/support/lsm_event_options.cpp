@@ -4,6 +4,7 @@
 
 #include "domain.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_script.h"
 
 #include <cstring>
 
@@ -20,9 +21,7 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
   in.read_all(keywords(in));
   ledger = ledger || watchdog.tolerance > 0.0;
   events.ruptures.keep_nonpositive = events.drops.keep_nonpositive;
-  if (emergency_file.find_first_of("*%") != std::string::npos)
-    in.stop("emergency is " + emergency_file +
-            ", but must be the name of one file, without * and %");
+  LSMScript::require_plain(lmp, STYLE + ": emergency", emergency_file);
   if (lmp->domain->dimension == 3)
     for (const char *of_lines : {"location", "fraction"})
       if (in.has(of_lines))

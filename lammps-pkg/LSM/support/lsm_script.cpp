@@ -45,6 +45,12 @@ std::string LSMScript::beside(LAMMPS *lmp, FILE *script, const std::string &name
   return path;
 }
 
+void LSMScript::require_plain(LAMMPS *lmp, const std::string &who, const std::string &name)
+{
+  if (name.find_first_of("*%") != std::string::npos)
+    lmp->error->all(FLERR, "{} is {}, but must be the name of a file without * and %", who, name);
+}
+
 LSM::files::Parameters LSMScript::listed(LAMMPS *lmp, const char *list)
 {
   LSM::files::Parameters all;

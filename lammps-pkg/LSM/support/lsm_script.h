@@ -19,6 +19,9 @@ namespace LSMScript {
   /// included.
   std::string beside(LAMMPS *, FILE *script, const std::string &name, const std::string &who);
 
+  /// Stops if a name of restart files has * or %, which LAMMPS replaces; `who` begins the message.
+  void require_plain(LAMMPS *, const std::string &who, const std::string &name);
+
   /// Names of variables that lsm_variables has left for others, in string-style variables.
   constexpr char SAVED[] = "lsm_saved", HEADER[] = "lsm_header";
   /// Those of a list with their values; empty if there is no such list.

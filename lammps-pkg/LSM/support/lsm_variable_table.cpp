@@ -54,7 +54,7 @@ static bool is_bound(const std::string &accepted, std::smatch &bound, double &le
 
 std::string LSMSceneVariable::expected(const std::string &value, const std::string &accepted)
 {
-  if (accepted == "file" || accepted == RESTART_FILE)
+  if (accepted == "file" || accepted == RESTART_FILE || accepted == SCENE)
     return !value.empty() && value.front() != '-' && consists_of(value, "._-+=,@:/~")
                ? ""
                : "a file name of letters, digits and any of . _ - + = , @ : / ~ that does not "
@@ -68,6 +68,9 @@ std::string LSMSceneVariable::expected(const std::string &value, const std::stri
   double number = 0.0;
   const bool is_number = LSM::text::parse(value, number) && std::isfinite(number);
   if (accepted == "number") return is_number ? "" : "a number";
+  if (accepted == "fraction")
+    return is_number && number >= 0.0 && number < 1.0 ? ""
+                                                      : "a number of at least 0 and less than 1";
   std::smatch bound;
   double least = 0.0;
   if (is_bound(accepted, bound, least)) {

@@ -25,7 +25,7 @@ struct LSMSceneVariable {
   /// What the value must be, for messages, or "" if it is accepted.
   std::string expected(const std::string &value) const { return expected(value, accepted); }
   static std::string expected(const std::string &value, const std::string &accepted);
-  static constexpr const char *RESTART_FILE = "restart file";
+  static constexpr const char *RESTART_FILE = "restart file", *SCENE = "scene";
   bool is_restart_file() const { return accepted == RESTART_FILE; }
 };
 
