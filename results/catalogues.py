@@ -15,7 +15,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "inputs/studies")]
 import lsm  # noqa: E402
-from calibrate import LOADING  # noqa: E402, F401
+from calibrate import LOADING, roll_off_gain  # noqa: E402, F401
 from lsm.drawing import draw  # noqa: E402, F401
 from text_tables import memory_of, rows_of  # noqa: E402, F401
 

@@ -40,7 +40,7 @@ from pathlib import Path
 
 import numpy as np
 import summary
-from catalogues import LOADING, draw, lsm, memory_of, rows_of, text_of, write_table
+from catalogues import LOADING, draw, lsm, memory_of, roll_off_gain, rows_of, text_of, write_table
 
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
@@ -470,14 +470,17 @@ PANELS = (  # label, column, lines of the paper and of earthquakes, how it is dr
     ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", {"paper": 1.07}, "set yrange [0.8:1.5]"),
     ("excess of friction", "excess", {}, "set yrange [0:2]"),
     ("share of time in events", "in_events", {"paper": 1 / 3}, "set yrange [0:0.5]"),
-    ("evidence of a roll-off, 2 ln L", "roll_off_gain", {"paper": 3.84}, "set logscale y\nset yrange [1:300]"),
+    ("evidence of a roll-off, 2 ln L", "roll_off_gain", {"paper": 3.84}, "set nonlinear y via sqrt(y) inverse y**2\nset yrange [0:130]\nset ytics (0, 5, 10, 20, 50, 100)"),
 )
 
 
 def decides(base, points):
     """Lines over the viscosity, one for each impedance: mean of the packings at length 120, with their deviation, and length 480."""
     with open(points) as lines:
-        rows = [row for row in rows_of(lines) if row["point"].startswith("d_") and row["stopped"] == "no" and float(row["memory"]) == MEMORY]
+        rows = [
+            row | {"roll_off_gain": roll_off_gain(row)} for row in rows_of(lines)
+            if row["point"].startswith("d_") and row["stopped"] == "no" and float(row["memory"]) == MEMORY
+        ]
     impedances = sorted({row["impedance"] for row in rows}, key=float)
     styles = [(impedance, length, f"lc {colour} pt {point} dt {1 if length == '120' else 3}") for impedance, colour in zip(impedances, (2, 8, 6))
               for length, point in (("120", 7), ("480", 6))]
@@ -493,7 +496,7 @@ set datafile separator
         for impedance, length, style in styles:
             at = {}
             for row in rows:
-                if row["impedance"] == impedance and row["length"] == length and row[key]:
+                if row["impedance"] == impedance and row["length"] == length and row[key] != "":
                     at.setdefault(float(row["viscosity"]), []).append(float(row[key]))
             if at:
                 lines.append(f"'-' w yerrorlines {style} notitle")
