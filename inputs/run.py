@@ -181,7 +181,7 @@ class Slider:
         words = []
         for pair in self.settings:
             key, value = pair.split("=", 1)
-            words += [f"--{key}"] if value == "yes" else [f"--{key}", value]
+            words += [f"--{key}"] if value == "yes" else [f"--{key}", *(value.split() if key == "friction-range" else [value])]
         resumed = (self.folder / "checkpoint.bin").exists()
         if resumed and not (self.folder / self.catalogue).exists():
             raise Failed(f"{self.folder}/{self.catalogue} is missing, but there is a checkpoint; move the folder away to begin again")
@@ -325,8 +325,8 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
         if (code != 0 or job.steps() is None) and told:
             return STOPPED
         if code != 0:
-            why = re.search(r"^(ERROR.*|slider_cli: .*)$", said, re.M)
-            why = why.group(1) if why else f"its program ended with {code}, see output.txt"
+            why = re.findall(r"^(?:ERROR|slider_cli: (?!warning: |.*: \d+ events at step)).*$", said, re.M)
+            why = why[-1] if why else f"its program ended with {code}, see output.txt"
             if "link is strained" not in why:
                 raise Failed(f"{folder}: {why}" + ("; no space left on the disk" if shutil.disk_usage(folder).free < 2**20 else ""))
             # A repetition with these settings would fail in the same way.

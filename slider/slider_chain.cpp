@@ -207,6 +207,7 @@ void Chain::restart() {
   double *const u = view_.u;
   u[-1] = u[view_.blocks - 1];
   u[view_.blocks] = u[0];
+  if (view_.rest) view_.rest[view_.blocks] = u[0];
   if (forces_) forces_->find(u);
   for (int i = 0; i < view_.blocks; ++i) view_.force[i] = view_.pull(i, plate());
   if (!cells_.empty()) {

@@ -363,6 +363,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     const int begin = count > 0 && list[0] == 0 ? 1 : 0;
     if (begin == 1) move(0, first_change);
     u[chain.blocks] = u[0];
+    // the ghost in the last chunk rests where it is: a law without dynamic strength would let it go
+    if constexpr (needs_rest) chain.rest[chain.blocks] = u[0];
     for (int k = begin; k < count + lag; ++k) {
       if (k + ahead < count) fetch(k + ahead);
       if (k < count) move(k, changes[static_cast<unsigned>(k) % ring]);

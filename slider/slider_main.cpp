@@ -165,7 +165,10 @@ int main(int argc, char **argv) {
                                           ? std::vector<Settings>{settings}
                                           : Slider::ensemble(settings, arguments);
     Slider::check_files(all);
-    return run_all(all, settings);
+    const int status = run_all(all, settings);
+    if (settings.summary == "-" && !std::cout.flush())
+      throw std::runtime_error("--json -: cannot write to standard output");
+    return status;
   } catch (const std::bad_alloc &) {
     fmt::print(stderr, "slider_cli: out of memory, expected fewer --blocks\n");
   } catch (const std::exception &e) {

@@ -286,6 +286,10 @@ class CommandLine {
         (!p_.by_springs() || p_.radiation > 0.0 || p_.landscape.length > 0.0))
       throw std::invalid_argument(
           "--leap needs --coupling chain without --radiation and --correlation-length");
+    // or ruptures would last over leaps
+    if (run_.leap_speed > 0.0 && rupture_gap_ > leap_calm)
+      refuse("--rupture-gap", rupture_gap_,
+             "at most " + fmt::format("{:g}", leap_calm) + " with --leap");
     for (const auto &[option, value] :
          {std::pair("--leap", run_.leap_speed), {"--warmup", run_.filter.warmup}})
       if (!(value >= 0.0) || !std::isfinite(value)) refuse(option, value, "a finite number >= 0");
@@ -469,11 +473,17 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     const std::size_t number = all.size() + 1;
     std::vector<std::string> words = arguments;
     words.insert(words.end(), extra.begin(), extra.end());
+    const auto has = [&extra](std::string_view name) {
+      return std::any_of(extra.begin(), extra.end(), [name](std::string_view word) {
+        return word.substr(0, word.find('=')) == name;
+      });
+    };
     try {
+      for (const char *of_all : {"--json", "--threads", "--ensemble", "--version", "--help", "-h"})
+        if (has(of_all))
+          throw std::invalid_argument(std::string(of_all) + ", expected options of one run only");
       RunOptions &run = all.emplace_back(parse(words, base.run.stop)).run;
-      if (std::none_of(extra.begin(), extra.end(), [](const std::string &word) {
-            return word == "--catalogue" || word.rfind("--catalogue=", 0) == 0;
-          }))
+      if (!has("--catalogue") || run.catalogue.find("{run}") != std::string::npos)
         run.catalogue = numbered(run.catalogue, number);
       run.series = numbered(run.series, number);
       run.checkpoint = numbered(run.checkpoint, number);

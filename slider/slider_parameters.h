@@ -146,8 +146,9 @@ inline void check(const Parameters &p, bool force) {
   if (!std::isfinite(p.mass) || p.mass < 0.0) refuse("--mass", p.mass, "a finite number >= 0");
   if (p.mass == 0.0 && p.radiation == 0.0)
     refuse("--mass", p.mass, "a positive number, or --radiation to balance the springs");
-  if (!std::isfinite(p.landscape.length) || p.landscape.length < 0.0)
-    refuse("--correlation-length", p.landscape.length, "a finite number >= 0");
+  // cells are counted in 64 bits
+  if (!std::isfinite(p.landscape.length) || (p.landscape.length < 1e-9 && p.landscape.length != 0))
+    refuse("--correlation-length", p.landscape.length, "0, or a finite number of at least 1e-9");
   for (const auto &[option, value] : {std::pair("--kl", p.kl),
                                       {"--velocity", p.velocity},
                                       {"--dt", p.dt},

@@ -109,10 +109,8 @@ class RuptureTracker : public LSM::SlipSets<Rupture> {
     e.pe_end = r.pe_end;
     e.slip_moment = r.slip;
     e.rupture_length = static_cast<double>(r.length);
-    if (r.slip_cos != 0.0 || r.slip_sin != 0.0) {
-      e.x_centroid = std::atan2(r.slip_sin, r.slip_cos) * (places() / (2.0 * LSM::pi));
-      if (e.x_centroid < 0.0) e.x_centroid += places();
-    }
+    if (r.slip_cos != 0.0 || r.slip_sin != 0.0)
+      e.x_centroid = LSM::part_of_ring(r.slip_sin, r.slip_cos) * places();
     return e;
   }
 

@@ -571,7 +571,7 @@ def figure(rows, samples, base):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["propose"] and len(sys.argv) in (5, 6):
+    if sys.argv[1:2] == ["propose"] and 5 <= len(sys.argv) <= 7:
         propose(*sys.argv[2:])
     elif sys.argv[1:2] == ["collect"] and len(sys.argv) > 4:
         collect(*sys.argv[2:4], sys.argv[4:])

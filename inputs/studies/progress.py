@@ -6,6 +6,8 @@ import threading
 import time
 from pathlib import Path
 
+NEARLY = 0.9999  # a run is done if done.json says so
+
 
 class RunProgress:
     """Progress of one run; reads only what is new in its files."""
@@ -13,7 +15,7 @@ class RunProgress:
     def __init__(self, run):
         self.run, self.events, self.seen = run, 0, 0
         time = float(run.settings.get("time") or 0)
-        self.steps = float(run.settings.get("steps") or time / float(run.settings.get("dt") or 0.05) or 1.2e6)
+        self.steps = float(run.settings.get("steps") or time / float(run.settings.get("dt") or 0.05) or (2e6 if run.program == "slider" else 1.2e6))
         # Estimated core seconds: 65 discs per unit of length, 44 million steps of a disc per second; for a chain likewise.
         # ESyS-Particle takes 30 times as long. A rupture of a plane: its spacing is space and time.
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))
@@ -48,8 +50,10 @@ class RunProgress:
         elif (folder / "output.txt").exists():
             with open(folder / "output.txt", "rb") as file:
                 file.seek(max(0, (folder / "output.txt").stat().st_size - 2000))
-                steps = int((re.findall(rb"step (\d+) of", file.read()) or [b"0"])[-1])
-        return min(1.0, steps / self.steps)
+                told = re.findall(rb"step (\d+) of (\d+)", file.read())
+            if told:
+                steps, self.steps = map(int, told[-1])
+        return min(NEARLY, steps / self.steps)
 
 
 def length_of_time(seconds):

@@ -68,7 +68,7 @@ def thinned(source, least):
             line = f"# completeness = {COMPLETE}\n"
         elif line[0] not in "#e":
             try:
-                small = float(line.split(",")[5]) < least
+                small = float(line.split(",")[5]) < least and least > 0
             except (IndexError, ValueError):
                 refuse("an event")
             if small:

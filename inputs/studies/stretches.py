@@ -53,6 +53,8 @@ def parts_of(path):
                 lines = [line for line in lines if line[-1] == "\n"]  # a killed run leaves incomplete lines and samples
                 pieces = int(lines[0].split()[1])
                 table = [lines[n:n + pieces + 1] for n in range(0, len(lines) - pieces, pieces + 1)]
+                if not table:
+                    continue
                 steps = np.array([int(rows[0].split()[0]) for rows in table])
                 parts.append((steps, np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)))
                 pieces, blocks = parts[-1][1].shape[1:]

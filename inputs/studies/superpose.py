@@ -32,7 +32,9 @@ def read(path):
         raise SeriesError(f"{path}: expected a binary PE series")
     begin = 24 + int.from_bytes(raw[16:24], "little")
     info = header_of(raw[24:begin].decode().splitlines())
-    records = raw[begin:]
+    records = raw[begin:begin + (len(raw) - begin) // 16 * 16]  # a killed run may leave an incomplete one
+    if "lambda" not in info or info.get("model") != "lsm":
+        raise SeriesError(f"{path}: expected the series of a fault")
     values, steps = array.array("d"), array.array("q")
     values.frombytes(records)
     steps.frombytes(records)
@@ -92,6 +94,8 @@ def main(words):
     if words in (["-h"], ["--help"]):
         return print(__doc__)
     if words[:1] == ["every"] and len(words) == 4:
+        if not words[1].isdigit() or int(words[1]) < 1:
+            raise SeriesError(f"every {words[1]}, expected a number of at least 1")
         return every(int(words[1]), *words[2:])
     if len(words) < 4 or len(words) % 3 != 1:
         sys.exit(__doc__)

@@ -50,6 +50,25 @@ def test_compressed_and_unknown_columns(work):
         assert events.header == {"model": "lsm", "seed": "3"} and events[events["size"] > 1].header == events.header
 
 
+def test_further_columns_of_text_are_left_out(work):
+    (work / "a.csv").write_text(CATALOGUE.replace(",new_one", ",quality").replace(",7\n", ",good\n").replace(",8\n", ",bad\n"))
+    events = lsm.read_catalogue("a.csv")
+    assert "quality" not in events.dtype.names and events["size"].tolist() == [0.25, 1e-5]
+
+
+def test_headers_without_blanks(work):
+    (work / "a.csv").write_text(CATALOGUE.replace("# seed = 3", "#seed=3"))
+    assert lsm.read_catalogue("a.csv").header == {"model": "lsm", "seed": "3"}
+
+
+@pytest.mark.parametrize("old, new", [("0.25", "nan"), ("3,2,3,20", "3,2,3,99999999999999999999")])
+def test_what_no_event_can_have(work, old, new):
+    (work / "a.csv").write_text(CATALOGUE.replace(old, new))
+    with pytest.raises(ValueError, match="a.csv:[56]: '.*', expected 9 numbers"):
+        lsm.read_catalogue("a.csv")
+    assert len(lsm.read_catalogue("a.csv", lenient=True)) == 1
+
+
 def test_a_line_that_is_still_being_written_is_no_event(work):
     (work / "a.csv").write_text(CATALOGUE + "4,3,4,30,4")
     assert lsm.read_catalogue("a.csv")["event_id"].tolist() == [1, 3]

@@ -6,12 +6,13 @@ import math
 import os
 import re
 import signal
+import subprocess
 import zlib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import header, read_catalogue, read_series, rows, same, same_bytes, unknown_keys
+from data_files import header, read_catalogue, read_series, rows, same, same_bytes, table, unknown_keys
 from programs import changed, interrupt, refused, run, start
 
 SHORT = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 "
@@ -184,6 +185,12 @@ def test_ensemble(slider, ran, no):
     ran(SHORT, "--steps 300000 --ensemble equal.txt --catalogue of.csv")
     assert header("equal.csv")["seed"] == "2"
     assert header("set-1.csv")["kl"] == "0.02"
+    Path("marked.txt").write_text("--seed 1\n--seed 2 --catalogue of_{run}.csv\n")
+    ran(SHORT, "--steps 300000 --ensemble marked.txt --catalogue of.csv --overwrite")
+    assert header("of_2.csv")["seed"] == "2"
+    for option in "--version", "--json=all.json", "--threads 2", "--ensemble 2":
+        Path("common.txt").write_text(f"--seed 1\n{option}\n")
+        no("--ensemble common.txt", f"run 2 of the ensemble: {option.split('=')[0].split()[0]}, expected options of one run only")
     Path("wrong.txt").write_text("--seed 1\n--kl -1\n")
     no("--ensemble wrong.txt", "run 2 of the ensemble: .*--kl")
     Path("twice.txt").write_text("--catalogue bad.csv --seed 1\n--catalogue bad.csv --seed 2\n")
@@ -475,6 +482,22 @@ def test_ruptures(slider, ran):
     ran(SHORT, "--steps 300000 --events ruptures --min-size 0.5 --catalogue large.csv")
     large = [row.split(",", 1)[1] for row in rows("r.csv") if float(row.split(",")[5]) >= 0.5]
     assert large and large == [row.split(",", 1)[1] for row in rows("large.csv")]
+
+
+@pytest.mark.parametrize("events", ["pe", "ruptures"])
+def test_centroids_are_on_the_ring(ran, events):
+    """Ruptures that are symmetric about block 0 are at 0, and not at the end of the ring."""
+    Path("mirrored.txt").write_text("\n".join(str(0.5 + 0.002 * min(i, 20 - i)**2 + 0.01 * (min(i, 20 - i) * 7 % 5)) for i in range(20)))
+    ran("--blocks 20 --velocity 0.05 --warmup 0 --steps 400000 --friction-file mirrored.txt --columns centroid --events", events, "--catalogue c.csv")
+    places = [float(row["x_centroid"]) for row in table("c.csv")]
+    assert len(places) > 30 and min(places) < 0.01 and max(places) < 20
+
+
+def test_a_full_device_loses_no_summary_in_silence(slider):
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run([*slider.command, *"--blocks 4 --steps 100 --catalogue b.csv --json -".split()], stdout=full, stderr=subprocess.PIPE,
+                               text=True)
+    assert (ended.returncode, ended.stderr) == (1, "slider_cli: --json -: cannot write to standard output\n")
 
 
 def test_a_large_catalogue_is_announced(slider, ran):

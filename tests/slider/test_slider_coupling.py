@@ -92,7 +92,9 @@ def test_limits(no):
     no("--coupling inplane --kc 0", "--kc = 0, expected a positive finite number")
     for more in "--coupling antiplane", "--radiation 0.1", "--correlation-length 1":
         no("--leap 1e-3 " + more, "--leap needs --coupling chain without")
-    no("--correlation-length nan", "--correlation-length = nan, expected")
+    for length in "nan", "1e-19":  # cells that short could not be counted
+        no(f"--correlation-length {length}", f"--correlation-length = {length}, expected 0, or a finite number of at least 1e-9")
+    no("--leap 1e-3 --events ruptures --rupture-gap 51", "--rupture-gap = 51, expected at most 50 with --leap")
 
 
 @pytest.mark.parametrize("way", [

@@ -3,6 +3,7 @@
 import array
 import csv
 import json
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -194,6 +195,9 @@ def test_sliders_are_published_whole(slider, tmp_path):
     source = tmp_path / "chain/catalogue.csv"
     publish.main("out", [tmp_path / "chain"])
     assert rows("out/chain.catalogue.csv.xz") == rows(source) and "thinned" not in header("out/chain.catalogue.csv.xz")
+    source.write_text(re.sub(r"(?m)^((?:[^#,\n]*,){5})[0-9.e-]+", r"\1-1e-15", source.read_text(), count=1))
+    publish.main("out", [tmp_path / "chain"])
+    assert rows("out/chain.catalogue.csv.xz") == rows(source)
     publish.main("out", [tmp_path / "chain"], 100)
     wanted = [line for line in rows(source) if float(line.split(",")[5]) >= 100]
     assert 0 < len(wanted) < len(rows(source)) and rows("out/chain.catalogue.csv.xz") == wanted
@@ -244,3 +248,17 @@ def test_what_is_no_series_is_refused(runs, series):
                                                                                     "200"], "expected 1667 of 0.12")):
         with pytest.raises(superpose.SeriesError, match=said):
             superpose.main(["bad.pe.bin", *words])
+    with pytest.raises(superpose.SeriesError, match="every -2, expected a number of at least 1"):
+        superpose.main(["every", "-2", "bad.pe.bin", series[0]])
+
+
+def test_series_of_a_killed_run_are_read_up_to_the_last_whole_record(series):
+    whole = superpose.read(series[0])[2]
+    Path("cut.pe.bin").write_bytes(Path(series[0]).read_bytes()[:-5])
+    assert superpose.read("cut.pe.bin")[2] == whole[:-1]
+
+
+def test_series_of_sliders_are_refused(slider):
+    run(slider, "--blocks 50 --steps 1000 --warmup 0 --catalogue c.csv --pe-series c.pe")
+    with pytest.raises(superpose.SeriesError, match="c.pe: expected the series of a fault"):
+        superpose.main(["every", "2", "bad.pe.bin", "c.pe"])

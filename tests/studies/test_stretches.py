@@ -75,6 +75,9 @@ def test_continued():
     (first, kept), (second, appended) = stretches.parts_of(begun)
     assert list(first) == list(100 + EVERY * np.arange(6)) and list(second) == list(100 + EVERY * np.arange(6, 10))
     assert (kept == energy[:6]).all() and (appended == energy[6:]).all()
+    short = begun.with_name("short.txt")  # killed within its first sample
+    short.write_text("".join(begun.read_text().splitlines(keepends=True)[:4]) + rest.read_text())
+    assert [list(steps) for steps, _ in stretches.parts_of(short)] == [list(100 + EVERY * np.arange(6, 10))]
     _, every, pe = stretches.stretches_of(begun.parent, SIZE)
     assert every == EVERY and pe.shape == (4, 10) and pe.sum(axis=0) == pytest.approx(energy.sum(axis=(1, 2)), rel=1e-12)
     assert (pe[:, 6:] == stretches.stretches_of(rest.parent, SIZE)[2]).all()

@@ -29,8 +29,7 @@ class CircularMean {
   /// The mean, from 0 to less than the length; 0 if the weights cancel or there are none.
   double position() const {
     if (cosine_ == 0.0 && sine_ == 0.0) return 0.0;
-    const double x = std::atan2(sine_, cosine_) / circle_;
-    return x < 0.0 ? x + length_ : x;
+    return part_of_ring(sine_, cosine_) * length_;
   }
 
  private:
