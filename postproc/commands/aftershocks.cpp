@@ -67,8 +67,9 @@ class AftershockRates : public Statistic {
                                        table.path, sizes.empty() ? "no events" : "one event",
                                        short_number(rule.least_size)));
     std::sort(sizes.begin(), sizes.end(), std::greater<double>());
-    const auto rank = static_cast<std::size_t>(share_ * static_cast<double>(sizes.size()));
-    rule.main_size = main_size_.value_or(sizes[std::min(rank, sizes.size() - 1)]);
+    const auto many =
+        static_cast<std::size_t>(std::lround(share_ * static_cast<double>(sizes.size())));
+    rule.main_size = main_size_.value_or(sizes[std::clamp(many, std::size_t{1}, sizes.size()) - 1]);
     const auto large = events_from(table, std::max(rule.main_size, rule.least_size));
     if (large == 0)
       throw DegenerateData(

@@ -34,8 +34,8 @@ class Compare : public Statistic {
     add_table(group, "compare");
     add_threshold(group, threshold_, "the events that are compared");
     group.flag("--rescale", rescale_,
-               "Divide the times of each catalogue by their mean (as Corral 2004 does): do they "
-               "have the same form?");
+               "Compare the times of each catalogue over their mean (as Corral 2004 does), in the "
+               "divisions as well: do they have the same form?");
     group.add("--replicas", replicas_, "Random permutations for each p-value", positive());
     group.add("--block", block_,
               "Consecutive events that are permuted as one block; 0: as many as the correlation "
@@ -48,11 +48,11 @@ class Compare : public Statistic {
                      double threshold) const {
     const auto values = [&](const EventTable &table) {
       if (quantity == "size") return column_from(table, threshold, &Event::size);
-      std::vector<double> times = inter_event_times(table, threshold);
-      return rescale_ ? over_mean(std::move(times)) : times;
+      return inter_event_times(table, threshold);
     };
     try {
-      return two_sample_test(values(first), values(second), replicas_, seed_, block_);
+      return two_sample_test(values(first), values(second), replicas_, seed_, block_,
+                             rescale_ && quantity == "time");
     } catch (const std::invalid_argument &e) {
       throw std::runtime_error(
           fmt::format("{} and {}: {}s: {}", first.path, second.path, quantity, e.what()));

@@ -69,8 +69,9 @@ class Count : public CatalogueAnalysis {
       for (const double size : sizes_) counts.push_back({size});
       Total all;
       const EventTable table = read_events(path, one, [&](const Event &event) {
-        if (all.events++ == 0) all.first = event.t_start;
-        all.last = event.t_start;
+        ++all.events;  // ruptures are in the order of their ends
+        all.first = std::fmin(all.first, event.t_start);
+        all.last = std::fmax(all.last, event.t_start);
         all.last_step = event.step_end;
         all.largest = std::fmax(all.largest, event.size);
         for (From &from : counts) {

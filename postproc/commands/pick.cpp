@@ -15,7 +15,9 @@ namespace {
 /// settings of the picker. A value that has not changed keeps its text.
 files::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
                                        const FilterSettings &filter) {
-  files::Parameters parameters = info.parameters;
+  // all drops are picked, whatever the run counted as events
+  files::Parameters parameters =
+      files::without(info.parameters, {"events", "rupture_gap", "plate_drops"});
   // dt is where the runs write it: before `viscosity` (fault) or `picker` (block-slider).
   const auto after_dt =
       std::find_if(parameters.begin(), parameters.end(), [](const auto &parameter) {

@@ -18,10 +18,9 @@ CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options
   const auto add = [&what](const std::string &text) { what += (what.empty() ? "" : ", ") + text; };
   if (std::isfinite(options.from_time)) add("t_start from " + text::number(options.from_time));
   if (std::isfinite(options.to_time)) add("t_start below " + text::number(options.to_time));
-  if (std::isfinite(options.min_size)) {
-    add("size from " + text::number(options.min_size));
+  if (std::isfinite(options.min_size)) add("size from " + text::number(options.min_size));
+  if (table.complete_from > 0.0)
     set_parameter(info.parameters, "min_size", text::number(table.complete_from));
-  }
   for (const std::string &condition : options.where) add(condition);
   if (what.empty()) what = "all events";
   if (const std::string *before = info.find("selected")) what = *before + "; " + what;

@@ -56,7 +56,9 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   table.comment(
       "before: events as long before the main shocks; quiet_rate: of events outside of the windows "
       "of all main shocks; excess_*: events beyond it; after_to_before: their ratio");
-  table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
+  table.comment(
+      "n(t) = K (t + c)^-p + background after the end of a main shock, in model time (earthquakes: "
+      "days)");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
   for (const AftershockCurve &curve : curves) table.row({curve});
   return Table(std::move(table));
@@ -70,6 +72,10 @@ Table aftershock_means(const std::vector<AftershockCurve> &curves) {
   TableOf<Mean> table;
   table.column("label", "catalogues of one label", &Mean::label);
   table.column("catalogues", "number", [](auto &mean) { return mean.p.size(); });
+  table.column("of_p", "with a p", [](auto &mean) {
+    return std::count_if(mean.p.begin(), mean.p.end(),
+                         [](const Measured &one) { return std::isfinite(one.value); });
+  });
   table.column("p", "p, mean", [](auto &mean) { return mean_of_catalogues(mean.p); });
   table.column("after_to_before", "after / before, mean",
                [](auto &mean) { return mean_of_catalogues(mean.ratio); });
@@ -93,7 +99,9 @@ Table aftershock_means(const std::vector<AftershockCurve> &curves) {
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
   Table table(
       "curve,model,bin_lo,bin_hi,time,count,rate,error,poisson_rate,poisson_scatter,label,before");
-  table.comment("rate of events per main shock and model time, from the end of the main shock");
+  table.comment(
+      "rate of events per main shock and model time (earthquakes: day), from the end of the main "
+      "shock");
   table.comment("before: events as long before the start of a main shock, by their ends");
   table.comment("error: Poisson; poisson_*: mean and standard deviation in Poisson catalogues");
   Curves plot("$5");
@@ -136,10 +144,14 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
            "lines: Omori-Utsu law; dashed: constant rate");
   plot.add(Curves::legend, "keyentry with boxes fs solid 0.15 noborder lt 8",
            "bands: Poisson catalogues, mean ± 2 standard deviations");
-  return plot.figure(
-      std::move(table),
-      axis("x", "time after the end of a main shock (model time)", true, times.lo, times.hi) +
-          axis("y", "events per main shock and time unit", true, 0.5 * rates.lo, 1.5 * rates.hi));
+  const bool days = std::all_of(curves.begin(), curves.end(),
+                                [](auto &curve) { return curve.model == seismicity; });
+  return plot.figure(std::move(table), axis("x",
+                                            std::string("time after the end of a main shock (") +
+                                                (days ? "days" : "model time") + ")",
+                                            true, times.lo, times.hi) +
+                                           axis("y", "events per main shock and time unit", true,
+                                                0.5 * rates.lo, 1.5 * rates.hi));
 }
 
 }  // namespace LSM::postproc

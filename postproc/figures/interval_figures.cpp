@@ -80,13 +80,14 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
     plot.add(Curves::legend, "keyentry with lines lt 8 dt 1 lw 1.6", "fit not rejected");
   if (any_rejected)
     plot.add(Curves::legend, "keyentry with lines lt 8 dt 3 lw 2", "fit rejected (p < 0.05)");
+  const bool days = std::all_of(curves.begin(), curves.end(),
+                                [](auto &curve) { return curve.sample.earthquakes; });
+  const std::string unit = days ? "days" : "model time";
   return plot.figure(
       std::move(table),
-      axis("x",
-           rescaled ? "inter-event time θ (mean = 1)" : "inter-event time θ (model time units)",
+      axis("x", rescaled ? "inter-event time θ (mean = 1)" : "inter-event time θ (" + unit + ")",
            true, range.lo, range.hi) +
-          axis("y",
-               rescaled ? "probability density f(θ)" : "probability density f(θ) (1 / model time)",
+          axis("y", "probability density f(θ)" + (rescaled ? std::string() : " (1 / " + unit + ")"),
                true, 0.3 * heights.lo, heights.hi));
 }
 

@@ -34,7 +34,8 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
                            const std::vector<PowerLine> &lines) {
   // Labels may contain commas. They come last so that `awk -F,` finds the numbers.
   Table table("curve,model,length,bin_lo,bin_hi,size,count,density,error,label");
-  table.comment("units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
+  table.comment(
+      "units: sizes in model energy, of earthquakes 10^(1.5 M); densities in 1 / size; errors: Poisson");
   Curves curves("$6", "$7 > 0");
   std::vector<std::int64_t> numbers;  // number of each catalogue's curve; 0: not drawn
   std::int64_t number = 0;
@@ -69,10 +70,15 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
         fmt::format("{}*$1**({})", text::number(line.amplitude), text::number(line.slope)),
         fmt::format("lt {} dt {} lw 2.2", curve > 0 ? curve : 8, line.dash), line.title);
   }
+  const bool magnitudes = std::all_of(densities.begin(), densities.end(),
+                                      [](auto &one) { return one.model == seismicity; });
   return curves.figure(
       std::move(table),
-      axis("x", "event size s (energy, model units)", true, sizes.lo, sizes.hi) +
-          axis("y", "probability density p(s) (1 / energy)", true, 0.3 * heights.lo, top));
+      axis("x", magnitudes ? "event size s, 10^{1.5 M}" : "event size s (energy, model units)",
+           true, sizes.lo, sizes.hi) +
+          axis("y",
+               magnitudes ? "probability density p(s)" : "probability density p(s) (1 / energy)",
+               true, 0.3 * heights.lo, top));
 }
 
 PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density) {

@@ -80,7 +80,8 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
   table.column("degenerate", "degenerate", [](auto &line) { return line.rival.why; });
   table.data("name", [](auto &line) { return name_of(line.fit); });
   table.comment(
-      "density C s^-exponent on [lo, hi] by maximum likelihood, sizes in model energy units");
+      "density C s^-exponent on [lo, hi] by maximum likelihood, sizes in model energy units, of "
+      "earthquakes 10^(1.5 M)");
   if (std::any_of(fits.begin(), fits.end(),
                   [](const SizeFit &fit) { return !fit.comparisons.empty(); }))
     table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");

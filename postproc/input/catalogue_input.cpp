@@ -137,10 +137,10 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
     event.t_start = event.t_end = one.time;
     event.size = size_of_magnitude(one.magnitude);
     event.earthquake = &one;
+    if (!choose(event, options.from_day, options.to_day, options, table, use)) continue;
+    table.magnitudes.push_back(one.magnitude);
     if (table.complete_from == 0.0 || event.size < table.complete_from)
       table.complete_from = event.size;
-    if (choose(event, options.from_day, options.to_day, options, table, use))
-      table.magnitudes.push_back(one.magnitude);
   }
   table.bins = recognized_bins(table.magnitudes);
   table.bins_given = options.magnitude_bin.has_value();
@@ -182,6 +182,7 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
   if (options.bins_for_models) table.bins.width = options.magnitude_bin.value_or(0.0);
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
   EventConditions where(options.where, table.info, path);
+  table.complete_from = std::max(table.complete_from, where.least_size());
   begin(table);
   const auto take = [&](ReadEvent &event) {
     if (!where.hold(event)) {

@@ -15,9 +15,6 @@
 
 namespace LSM::postproc {
 
-/// Value of CatalogueInfo::model for earthquakes.
-constexpr std::string_view seismicity = "seismicity";
-
 /// One earthquake.
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC

@@ -93,4 +93,14 @@ bool EventConditions::hold(const Event &event) const {
   });
 }
 
+double EventConditions::least_size() const {
+  using Is = EventCondition::Is;
+  double least = 0.0;
+  for (const One &one : all_)
+    if (one.condition.column == "size" &&
+        (one.condition.is == Is::more || one.condition.is == Is::at_least))
+      least = std::max(least, one.condition.number);
+  return least;
+}
+
 }  // namespace LSM::postproc

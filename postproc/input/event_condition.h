@@ -41,6 +41,8 @@ class EventConditions {
   /// Whether there is time between the events that were added.
   bool has_friction_between() const { return time_between_ > 0.0; }
   bool hold(const Event &event) const;
+  /// The size below which conditions on the size leave out all events; 0 without such a condition.
+  double least_size() const;
 
  private:
   struct One {

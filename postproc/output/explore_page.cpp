@@ -147,6 +147,11 @@ static void to_json(json &out, const ThresholdResult &result) {
 
 namespace {
 
+std::vector<LogBin> densities_of(const EventTable &table) {
+  return table.size_step() > 0.0 ? size_density(table, DensitySettings()).bins
+                                 : log_histogram(column(table.events, &Event::size));
+}
+
 json events_json(const ExploreEvents &kind, PageData &data) {
   const EventTable &table = kind.table;
   std::vector<double> cells;
@@ -164,7 +169,7 @@ json events_json(const ExploreEvents &kind, PageData &data) {
           {"listed", table.details.size()},
           {"columns", names},
           {"numbers", data.add(cells)},
-          {"densities", bins_json(log_histogram(column(table.events, &Event::size)))},
+          {"densities", bins_json(densities_of(table))},
           {"usual", usual.size},
           {"usualText", text(usual)},
           {"thresholds", kind.thresholds},

@@ -291,7 +291,8 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
     mains.push_back(main);
     for (std::size_t i = earliest; i < last; ++i) {
       const EventSummary &other = events[i];
-      if (other.size < rule.least_size || i == k) continue;
+      // Which of two that start together came first is not known.
+      if (other.size < rule.least_size || other.t_start == main.t_start) continue;
       // An event of a catalogue with overlaps may precede the main shock in order and yet start
       // after the main shock has ended.
       if (!is_before(other.t_start, main.t_end + rule.first))
@@ -301,8 +302,8 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
     // event that overlaps with the main shock is neither before nor after it.
     for (std::size_t i = k; i-- > 0 && !is_before(events[i].t_start, from - longest);) {
       const EventSummary &other = events[i];
-      if (other.size >= rule.least_size && !is_before(other.t_end, from) &&
-          !is_before(main.t_start - rule.first, other.t_end))
+      if (other.size >= rule.least_size && other.t_start < main.t_start &&
+          !is_before(other.t_end, from) && !is_before(main.t_start - rule.first, other.t_end))
         stack.before.push_back(std::min(main.t_start - other.t_end, rule.window));
     }
   }

@@ -88,9 +88,13 @@ std::vector<double> conditional_of(const std::vector<CelledTime> &series, double
   return out;
 }
 
-AgainstChance against(double value, const std::vector<double> &random) {
+AgainstChance against(double value, std::vector<double> random) {
   AgainstChance out;
   out.value = value;
+  random.erase(
+      std::remove_if(random.begin(), random.end(), [](double one) { return std::isnan(one); }),
+      random.end());
+  if (std::isnan(value) || random.empty()) return out;
   out.mean = mean_of(random);
   const auto n = static_cast<double>(random.size());
   out.deviation = std::sqrt(gsl_stats_tss_m(random.data(), 1, random.size(), out.mean) /

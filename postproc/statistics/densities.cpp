@@ -11,9 +11,7 @@
 
 namespace LSM::postproc {
 
-namespace {
-
-SizeDensity density_of(const EventTable &table, const DensitySettings &settings) {
+SizeDensity size_density(const EventTable &table, const DensitySettings &settings) {
   SizeDensity out;
   out.label = table.label;
   out.model = table.info.model;
@@ -43,8 +41,6 @@ SizeDensity density_of(const EventTable &table, const DensitySettings &settings)
   return out;
 }
 
-}  // namespace
-
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
                                         const DensitySettings &settings) {
   std::vector<SizeDensity> all;
@@ -54,7 +50,7 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   std::size_t events = 0;
   expect_events(tables);
   for (const EventTable &table : tables) {
-    all.push_back(density_of(table, settings));
+    all.push_back(size_density(table, settings));
     least = std::min(least, settings.threshold.of(table).size);
     any = any || !all.back().bins.empty();
     for (const EventSummary &event : table.events) sizes.add(event.size);

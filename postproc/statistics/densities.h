@@ -31,6 +31,9 @@ struct SizeDensity {
   std::vector<LogBin> bins;  ///< with Poisson errors; empty if no event is in the range
 };
 
+/// The same for one catalogue, which may have no events.
+SizeDensity size_density(const EventTable &table, const DensitySettings &settings);
+
 /// Bins the sizes of each catalogue. Where magnitudes are in bins of their own, a bin of sizes
 /// holds a whole number of these, the nearest to the factor, from the smallest size on: any others
 /// would hold now more, now fewer of them. \return densities in the order of the catalogues \throws

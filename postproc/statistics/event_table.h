@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/catalogue.h"
@@ -19,6 +20,9 @@ namespace LSM::postproc {
 
 /// Events below this size are left out of the paper's Figs. 12 and 13 (model energy units).
 constexpr double paper_threshold = 1e-4;
+
+/// Value of CatalogueInfo::model for earthquakes.
+constexpr std::string_view seismicity = "seismicity";
 
 /// Range of sizes or times.
 struct Range {
@@ -62,7 +66,7 @@ struct EventTable {
   std::vector<std::string> repairs;  ///< what was skipped, with counts by kind (lenient)
 
   /// Whether this is a catalogue of earthquakes: times in days, sizes 10^(1.5 M).
-  bool earthquakes() const { return info.model == "seismicity"; }
+  bool earthquakes() const { return info.model == seismicity; }
   /// Ratio of the sizes in successive bins of magnitudes, as its natural logarithm; 0: no bins, or
   /// bins too fine to matter.
   double size_step() const {

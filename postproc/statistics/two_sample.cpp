@@ -4,11 +4,14 @@
 #include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "block_length.h"
 #include "replicas.h"
@@ -101,16 +104,7 @@ int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
   return std::max(1, static_cast<int>(std::lround(longer)));
 }
 
-}  // namespace
-
-double two_sample_distance(std::vector<double> first, std::vector<double> second) {
-  if (first.empty() || second.empty())
-    throw std::invalid_argument("distance of two samples: one is empty");
-  for (const std::vector<double> *const sample : {&first, &second})
-    if (std::any_of(sample->begin(), sample->end(), [](double x) { return std::isnan(x); }))
-      throw std::invalid_argument("distance of two samples: not all values are numbers");
-  std::sort(first.begin(), first.end());
-  std::sort(second.begin(), second.end());
+double sorted_distance(const std::vector<double> &first, const std::vector<double> &second) {
   const auto n1 = static_cast<double>(first.size()), n2 = static_cast<double>(second.size());
   double largest = 0.0;
   for (auto one = first.begin(), other = second.begin();
@@ -125,8 +119,61 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
   return largest;
 }
 
+// Distances between the parts of divisions, each divided by its mean.
+class Forms {
+ public:
+  Forms(const std::vector<double> &first, const std::vector<double> &second,
+        const std::vector<Block> &blocks, std::size_t of_first)
+      : of_first_(of_first), sums_(blocks.size()), counts_(blocks.size()) {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t i = blocks[b].from; i < blocks[b].to; ++i) {
+        const double value = i < first.size() ? first[i] : second[i - first.size()];
+        sorted_.push_back({value, b});
+        sums_[b] += value;
+        counts_[b] += 1.0;
+      }
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  // Called by several threads at once.
+  double distance(const std::vector<std::size_t> &divided) const {
+    std::vector<char> in_first(sums_.size());
+    std::array<std::vector<double>, 2> parts;
+    std::array<double, 2> sum = {}, count = {};
+    for (std::size_t i = 0; i < divided.size(); ++i) {
+      const std::size_t b = divided[i], part = i < of_first_ ? 0 : 1;
+      in_first[b] = part == 0;
+      sum[part] += sums_[b];
+      count[part] += counts_[b];
+    }
+    for (const auto &[value, b] : sorted_) {
+      const std::size_t part = in_first[b] ? 0 : 1;
+      parts[part].push_back(value * count[part] / sum[part]);
+    }
+    return sorted_distance(parts[0], parts[1]);
+  }
+
+ private:
+  std::size_t of_first_;
+  std::vector<double> sums_, counts_;
+  std::vector<std::pair<double, std::size_t>> sorted_;
+};
+
+}  // namespace
+
+double two_sample_distance(std::vector<double> first, std::vector<double> second) {
+  if (first.empty() || second.empty())
+    throw std::invalid_argument("distance of two samples: one is empty");
+  for (const std::vector<double> *const sample : {&first, &second})
+    if (std::any_of(sample->begin(), sample->end(), [](double x) { return std::isnan(x); }))
+      throw std::invalid_argument("distance of two samples: not all values are numbers");
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  return sorted_distance(first, second);
+}
+
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
-                              int replicas, std::uint64_t seed, int block) {
+                              int replicas, std::uint64_t seed, int block, bool rescale) {
   for (const std::vector<double> *sample : {&first, &second})
     if (sample->size() < 10)
       throw std::invalid_argument("two-sample test of " + std::to_string(sample->size()) +
@@ -134,8 +181,11 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   TwoSampleTest test;
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
   const std::size_t n = first.size() + second.size();
-  Classes classes(first, second, n);
-  const bool by_classes = block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
+  const std::vector<double> x = rescale ? over_mean(first) : first,
+                            y = rescale ? over_mean(second) : second;
+  Classes classes(x, y, n);
+  const bool by_classes =
+      !rescale && block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
   if (block == 0) block = usual_block(classes, first.size(), n);
   // Longer blocks are just as valid.
   if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
@@ -150,16 +200,19 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   for (const Block &one : blocks_of(second.size(), block, first.size())) blocks.push_back(one);
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  test.distance = two_sample_distance(first, second);
+  std::optional<Forms> forms;
+  if (rescale) forms.emplace(x, y, blocks, of_first);
+  test.distance = two_sample_distance(x, y);
   // Counts by class for each block, so that the cost of a division does not grow with the number of
   // values.
   std::vector<Counts> in_block;
   if (by_classes) {
-    classes = Classes(first, second, coarse_classes);
+    classes = Classes(x, y, coarse_classes);
     in_block.assign(blocks.size(), Counts(coarse_classes));
     for (std::size_t i = 0; i < blocks.size(); ++i) classes.add(blocks[i], in_block[i]);
   }
   const auto distance = [&](const std::vector<std::size_t> &divided) {
+    if (rescale) return forms->distance(divided);
     Counts counts(classes.count());
     for (std::size_t i = 0; i < of_first; ++i)
       if (by_classes)

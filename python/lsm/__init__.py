@@ -16,6 +16,7 @@ have ended, or may have been killed.
 """
 import gzip
 import lzma
+import math
 import struct
 import zlib
 
@@ -27,6 +28,7 @@ __all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "u
 P_SPEED, S_SPEED, DENSITY = 2.00, 1.05, 0.286
 
 _INTEGERS = ("event_id", "step_start", "step_end")
+_COMMON = (*_INTEGERS, "t_start", "t_end", "size", "pe_start", "pe_end")
 
 
 class Table(np.ndarray):
@@ -54,7 +56,16 @@ def _bytes(path):
 
 
 def _parameters(lines):
-    return dict(line[2:].split(" = ", 1) for line in lines if line.startswith("# ") and " = " in line)
+    pairs = (line[1:].partition("=") for line in lines if line.startswith("#") and "=" in line)
+    return {key.strip(): value.strip() for key, _, value in pairs if key.strip()}
+
+
+def _is_number(field):
+    try:
+        float(field)
+    except ValueError:
+        return False
+    return True
 
 
 def _number(path, header, name, kind=float):
@@ -66,7 +77,8 @@ def _number(path, header, name, kind=float):
 
 
 def read_catalogue(path, lenient=False):
-    """Reads the events of a catalogue; columns of integers are int64, all others float64. lenient: leaves out lines that cannot be read."""
+    """Reads the events of a catalogue; columns of integers are int64, all others float64. Further columns whose first value is no number
+    are left out. lenient: leaves out lines that cannot be read."""
     lines = [line.removesuffix("\r") for line in _bytes(path).decode("utf-8-sig", "replace").split("\n")]
     lines.pop()  # the incomplete last line, or the empty text after the last line end
     if not lines or not lines[0].startswith("# lsm-catalogue "):
@@ -78,17 +90,23 @@ def read_catalogue(path, lenient=False):
         raise ValueError(f"{path}: no line of columns, expected 'event_id,t_start,...'")
     names = lines[first].split(",")
     kinds = [np.int64 if name in _INTEGERS else np.float64 for name in names]
+    some = lines[first + 1].split(",") if len(lines) > first + 1 else names
+    shown = [k for k, (name, field) in enumerate(zip(names, some)) if name in _COMMON or _is_number(field) or some is names]
+    finite = [k for k, column in enumerate(shown) if names[column] in _COMMON]
     rows = []
     for number, line in enumerate(lines[first + 1:], first + 2):
         fields = line.split(",")
         try:
             if len(fields) != len(names):
                 raise ValueError
-            rows.append(tuple(int(field) if kind is np.int64 else float(field) for field, kind in zip(fields, kinds)))
-        except ValueError:
+            row = tuple(kinds[k](fields[k]) for k in shown)
+            if not all(math.isfinite(row[k]) for k in finite):
+                raise ValueError
+            rows.append(row)
+        except (ValueError, OverflowError):
             if not lenient:
                 raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
-    return Table(np.array(rows, list(zip(names, kinds))), _parameters(lines[:first]))
+    return Table(np.array(rows, [(names[k], kinds[k]) for k in shown]), _parameters(lines[:first]))
 
 
 def _binary(path, magics, what):

@@ -7,14 +7,12 @@ The saw-tooth number is the rate at which PE falls over the rate at which it ris
 series that falls as it rises, large for a saw-tooth. With the catalogue also the share of the time within events, and their mean duration.
 """
 import argparse
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 
 import lsm
-from lsm.program import run
+from lsm.program import run, write_json
 
 WINDOW = 3.0  # time units: long against the periods of single discs (about 1), short against large events (10 and more)
 
@@ -51,19 +49,23 @@ def of_run(series, begin=-math.inf, end=math.inf, window=WINDOW, events=None):
     found = regime(np.asarray(inside["pe"]), (last - first) / (len(inside) - 1), float(series.header.get("length", math.nan)), window)
     if events is not None:
         events = events[(events["t_end"] >= first) & (events["t_end"] <= last)]
-        durations = np.asarray(events["t_end"] - np.maximum(events["t_start"], first))
-        found |= dict(time_in_events=durations.sum() / (last - first), mean_duration=durations.mean() if len(events) else 0.0)
+        begun = np.maximum(events["t_start"], first)
+        durations = np.asarray(events["t_end"] - begun)
+        order = np.argsort(begun)  # ruptures overlap
+        ended = np.maximum.accumulate(np.concatenate([[first], events["t_end"][order]]))
+        covered = np.maximum(ended[1:] - np.maximum(begun[order], ended[:-1]), 0).sum()
+        found |= dict(time_in_events=float(covered) / (last - first), mean_duration=durations.mean() if len(events) else 0.0)
     return found
 
 
 def main(series, catalogue, begin, end, window, json_file):
-    if not begin < end or not window > 0:
-        raise ValueError("expected --from before --to, and a --window above 0")
+    if not begin < end or not 0 < window < math.inf:
+        raise ValueError("expected --from before --to, and a finite --window above 0")
     found = of_run(lsm.read_series(series), begin, end, window, lsm.read_catalogue(catalogue) if catalogue else None)
     told = (f"{key.replace('_', ' ')} {value:.4g}" for key, value in found.items() if key not in ("regime", "why") and value is not None)
     print(f"{series}: {', '.join([found.get('regime') or 'degenerate: ' + found['why'], *told])}")
     if json_file:
-        Path(json_file).write_text(json.dumps(found, indent=1) + "\n")
+        write_json(json_file, found)
 
 
 def parser():

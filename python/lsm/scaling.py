@@ -9,7 +9,6 @@ the length L (or the number of blocks), a constant, and growth that ends, s* = s
 s_inf (L / L_c)^D for L far below L_c and s_inf far above. Results: BASE.csv, its picture .png and .svg, and --json.
 """
 import argparse
-import json
 import math
 from pathlib import Path
 from typing import NamedTuple
@@ -18,7 +17,7 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
-from lsm.program import add_time_window, run
+from lsm.program import add_time_window, run, write_json
 
 PAPER_THRESHOLD = 1e-4  # smallest size in the paper's Figs. 12 and 13
 SHARPNESS = 4.0  # m of the bend: few lengths lie within it; L_c and D depend on it by more than their errors, hence BENDS
@@ -250,7 +249,7 @@ def fit_scaling(points):
     elif aicc_constant < aicc - 2 and abs(D) < 1.96 * error_d:
         preferred = NONE
     return dict(n=n, A=math.exp(log_a), A_error=scale * math.exp(log_a) * error_a, D=D, D_error=scale * error_d, chi2=chi2, error_scale=scale,
-                constant=math.exp(mean), constant_error=math.exp(mean) / math.sqrt(np.sum(weight)), chi2_constant=chi2_constant, aicc=aicc,
+                constant=math.exp(mean), constant_error=error_scale(chi2_constant, n - 1) * math.exp(mean) / math.sqrt(np.sum(weight)), chi2_constant=chi2_constant, aicc=aicc,
                 aicc_constant=aicc_constant, preferred=preferred, saturation=saturation, bends=bends)
 
 
@@ -438,7 +437,7 @@ def main(catalogues, label, begin, end, threshold, bootstrap, block, seed, lenie
         print(f"  {verdict(scaling.fit)}")
     draw_all("lsm.scaling", output, [figure(found)], catalogues, not no_picture)
     if json_file:
-        Path(json_file).write_text(json.dumps(dict(scaling=[as_json(scaling) for scaling in found]), indent=1) + "\n")
+        write_json(json_file, dict(scaling=[as_json(scaling) for scaling in found]))
 
 
 def parser():

@@ -232,6 +232,19 @@ TEST(Sequences, BeforeMainShocksByHand) {
   EXPECT_EQ(found.bins[1].count, 1);
 }
 
+// Which of three earthquakes at one time came first is not known.
+TEST(Sequences, WhatStartsWithTheMainShockIsNeitherBeforeNorAfter) {
+  const EventTable table =
+      events({0, 90, 100, 100, 100, 103, 200}, {0, 0, 0, 0, 0, 0, 0}, {1, 1, 1, 50, 1, 1, 1});
+  SequenceRule rule;
+  rule.main_size = 50;
+  rule.least_size = 1;
+  rule.window = 20;
+  const Sequences found = stack_sequences(table.events, rule);
+  EXPECT_EQ(found.before, (std::vector<double>{10}));
+  EXPECT_EQ(found.times, (std::vector<double>{3}));
+}
+
 TEST(Omori, MaximumOfAnIndependentLikelihood) {
   // The log-likelihood is programmed independently; no point near the fit is better, and it is flat
   // there.

@@ -38,6 +38,13 @@ TEST(Clustering, ClosedForms) {
   EXPECT_LT(c.memory.p, 0.05);
 }
 
+// What does not exist cannot be compared with chance.
+TEST(Clustering, WithoutAStatisticThereIsNoP) {
+  const Clustering c = clustering(std::vector<double>(20, 2.0), 50, 1);
+  EXPECT_TRUE(std::isnan(c.memory.value));
+  EXPECT_TRUE(std::isnan(c.memory.p));
+}
+
 // The form for finite n is 1 if all times but one are 0, and -1 for periodic times, whatever n.
 TEST(Clustering, FiniteBurstinessReachesItsEnds) {
   for (const std::size_t n : {12u, 100u}) {

@@ -121,6 +121,31 @@ def test_magnitudes_at_the_limit_count(postproc, work, california):
     assert found["b"] == pytest.approx(1.0669, abs=5e-5)
 
 
+def test_what_is_complete_depends_on_the_events_in_the_window_only(postproc, work):
+    """The older half has smaller earthquakes; in the window it is as if they were not in the file."""
+    older, newer = gutenberg_richter(3000, 0.1, least=1.0, seed=2), gutenberg_richter(3000, 0.1, least=2.0, seed=3)
+    quakes("both.csv", older + newer)
+    run(postproc, "export both.csv --from 1980-05-05 --format csep -o late.csv")
+    for command in "magnitudes {} --no-picture -o out --overwrite --json b.json", "fit {} --overwrite --json b.json":
+        found = []
+        for file in "both.csv --from 1980-05-05", "late.csv":
+            run(postproc, command.format(file))
+            told = json.loads(Path("b.json").read_text())
+            found.append([{key: value for key, value in row.items() if key != "label"} for row in told.get("b_values", told.get("fits"))])
+        assert found[0] == found[1] and found[0]
+
+
+def test_the_page_has_the_densities_of_histograms(postproc, work):
+    quakes("tenths.csv", gutenberg_richter(2000, 0.1))
+    run(postproc, "explore tenths.csv -o page.html")
+    run(postproc, "histograms tenths.csv --no-picture -o sizes")
+    page = json.loads(re.search(r"<script[^>]*json[^>]*>(.*?)</script>", Path("page.html").read_text(encoding="utf-8"), re.S)[1])
+    shown = page["runs"][0]["kinds"][0]["densities"]
+    rows = [row for row in table("sizes.csv") if int(row["count"]) > 0]
+    assert [row[4] for row in shown] == [int(row["count"]) for row in rows] and len(rows) > 15
+    assert [row[2] for row in shown] == pytest.approx([float(row["density"]) for row in rows], rel=1e-5)
+
+
 def test_any_typed_limit_keeps_its_magnitude(postproc, work):
     for k in (*range(0, 100, 7), *range(-9, 0, 2)):
         low, high = f"{k / 10:.1f}", f"{k / 10 + 1.3:.2f}"

@@ -159,6 +159,15 @@ def test_online(do, slider, picker):
     assert said == header("online.csv")
 
 
+def test_pick_from_a_run_that_counts_other_events(do, slider):
+    """All drops are picked, so that the header must not say that events are ruptures, or drops by the plate left out."""
+    for name, more in ("r", "--events ruptures --rupture-gap 0.1"), ("p", "--without-plate-drops"):
+        run(slider, f"--blocks 64 --velocity 0.1 --warmup 0 --steps 60000 --catalogue {name}.csv --pe-series {name}.pe", more)
+        assert {"events", "plate_drops"} & set(header(f"{name}.csv"))
+        do(f"pick {name}.pe -o {name}-picked.csv")
+        assert not {"events", "rupture_gap", "plate_drops"} & set(header(f"{name}-picked.csv"))
+
+
 def test_series(do, no):
     made = step, time, pe = series("pe.bin")
     do("series pe.bin -o all --no-picture --picker exponential --lambda 0.9 --columns 600")
@@ -670,6 +679,24 @@ def test_select(do, no):
     no("is read by this command", "select c.csv -o c.csv --overwrite")
     no("2 catalogues, expected one", "select c.csv part.csv -o x.csv")
     no("earthquakes, expected a catalogue of a model", f"select {CALIFORNIA} -o x.csv")
+
+
+def test_conditions_on_the_size_say_what_is_complete(do):
+    sizes = 1e-3 / np.random.default_rng(2).uniform(size=3000)
+    write_catalogue("c.csv", np.arange(3000.0), sizes)
+    do("fit c.csv --min-size 0.01 --json one.json")
+    do("fit c.csv --json two.json", ["--where", "size >= 0.01"])
+    one, two = (json.loads(Path(name).read_text())["fits"] for name in ("one.json", "two.json"))
+    assert one == two and one[0]["exponent"] == pytest.approx(2, abs=0.2)
+    do("select c.csv -o part.csv", ["--where", "size > 0.01"])
+    assert float(header("part.csv")["min_size"]) == 0.01
+
+
+def test_ruptures_are_counted_from_the_first_start(do):
+    write_catalogue("r.csv", [5, 0, 20, 12], [1] * 4, dict(model="lsm", length=40, events="ruptures"), t_end=[6, 10, 25, 30])
+    found = json.loads(do("count r.csv --json -").out)
+    total = found["catalogues"][0] if "catalogues" in found else next(iter(found.values()))[0]
+    assert (total["first_start"], total["last_start"], total["last_end"]) == (0, 20, 30)
 
 
 def test_where(do, no):

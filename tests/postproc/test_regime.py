@@ -78,9 +78,14 @@ def test_program(work):
     assert found["time_in_events"] == 0.2 and found["mean_duration"] == 10
     run(SCRIPT, "run.pe.bin --catalogue run.csv --from 20 --window 1 --json r.json")
     assert json.loads(Path("r.json").read_text())["mean_duration"] == 5
+    write_catalogue("over.csv", [10, 12, 60], [1, 1, 1], t_end=[30, 20, 70])  # ruptures overlap
+    run(SCRIPT, "run.pe.bin --catalogue over.csv --window 1 --json r.json")
+    assert json.loads(Path("r.json").read_text())["time_in_events"] == 0.3
     run(SCRIPT, "run.pe.bin --to 80 --json r.json").printed("run.pe.bin: degenerate: PE only rises over 26 windows of 3 time units")
     assert json.loads(Path("r.json").read_text())["saw_tooth"] is None
     refused(SCRIPT, "run.pe.bin --from 1e6", "0 samples in the window of time, expected at least 3")
     refused(SCRIPT, "run.pe.bin --from 3 --to 2", "expected --from before --to")
+    refused(SCRIPT, "run.pe.bin --window inf", "a finite --window above 0")
+    refused(SCRIPT, "run.pe.bin --json /dev/full", "/dev/full: No space left on device")
     refused(SCRIPT, "nowhere.pe.bin", "nowhere.pe.bin: No such file")
     refused(SCRIPT, "run.csv", "run.csv: no PE series")
