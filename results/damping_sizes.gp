@@ -55,15 +55,15 @@ set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
      table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (2325 events)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (7281 events)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
      table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (2624 events)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (7196 events)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (3577 events)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (10611 events)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
@@ -75,7 +75,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (1595 events)", \
-     [0.0001:0.10000000000000001] '+' using 1:(0.30706382364877005*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
+     keyentry with linespoints lt 6 title "fault, length 1890 (9492 events)", \
+     [0.0001:0.10000000000000001] '+' using 1:(0.26179520933182288*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }

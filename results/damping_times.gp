@@ -37,7 +37,7 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel "inter-event time θ (model time units)"
+set xlabel "inter-event time θ (model time)"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
@@ -54,13 +54,13 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (2324 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (7280 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (2623 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (7195 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (3576 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (10610 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
      keyentry with linespoints lt 4 title "fault, length 945 (9835 times)", \
@@ -69,13 +69,13 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 5 title "fault, length 1440 (9450 times)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (1594 times)", \
-     [0.079432823472428096:501.18723362727303] '+' using 1:(0.07103882799798221*$1**(-0.026778519085098651)*exp(-$1**(1)/14.891602072686347)) with lines lt 1 dt 3 lw 2 notitle, \
-     [0.079432823472428096:199.52623149688822] '+' using 1:(0.088260063043893291*$1**(-0.13511299354116579)*exp(-$1**(1)/14.848448612106269)) with lines lt 2 dt 3 lw 2 notitle, \
-     [0.09999999999999995:125.89254117941687] '+' using 1:(0.12801540160335351*$1**(-0.37784567606463637)*exp(-$1**(1)/15.140546885258052)) with lines lt 3 dt 3 lw 2 notitle, \
+     keyentry with linespoints lt 6 title "fault, length 1890 (9491 times)", \
+     [0.09999999999999995:398.10717055349784] '+' using 1:(0.076272075026757147*$1**(-0.056303451014927175)*exp(-$1**(1)/14.727364931540402)) with lines lt 1 dt 3 lw 2 notitle, \
+     [0.079432823472428096:398.10717055349784] '+' using 1:(0.073322864961261558*$1**(-0.028900425681842368)*exp(-$1**(1)/14.479700931364068)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.079432823472428096:199.52623149688822] '+' using 1:(0.12673678394259333*$1**(-0.36926038940452932)*exp(-$1**(1)/15.119886927401783)) with lines lt 3 dt 3 lw 2 notitle, \
      [0.079432823472428096:199.52623149688822] '+' using 1:(0.11927121519559769*$1**(-0.33605590284969677)*exp(-$1**(1)/15.496266701413752)) with lines lt 4 dt 3 lw 2 notitle, \
      [0.079432823472428096:251.18864315095834] '+' using 1:(0.11861430137619933*$1**(-0.38699908574778941)*exp(-$1**(1)/17.466868483006895)) with lines lt 5 dt 3 lw 2 notitle, \
-     [0.079432823472428096:125.89254117941687] '+' using 1:(0.11462636176696735*$1**(-0.31588192428987405)*exp(-$1**(1)/15.737751909119599)) with lines lt 6 dt 3 lw 2 notitle, \
+     [0.079432823472428096:158.48931924611153] '+' using 1:(0.11750577891121419*$1**(-0.35594742951474023)*exp(-$1**(1)/16.551249240458052)) with lines lt 6 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

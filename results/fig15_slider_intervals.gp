@@ -37,7 +37,7 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel "inter-event time θ (model time units)"
+set xlabel "inter-event time θ (model time)"
 set logscale x
 set format x "10^{%L}"
 set xtics 10

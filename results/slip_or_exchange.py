@@ -470,7 +470,8 @@ PANELS = (  # label, column, lines of the paper and of earthquakes, how it is dr
     ("exponent, 10^{-4} to 0.1", "exponent_1e-4:1e-1", {"paper": 1.07}, "set yrange [0.8:1.5]"),
     ("excess of friction", "excess", {}, "set yrange [0:2]"),
     ("share of time in events", "in_events", {"paper": 1 / 3}, "set yrange [0:0.5]"),
-    ("evidence of a roll-off, 2 ln L", "roll_off_gain", {"paper": 3.84}, "set nonlinear y via sqrt(y) inverse y**2\nset yrange [0:130]\nset ytics (0, 5, 10, 20, 50, 100)"),
+    ("evidence of a roll-off, 2 ln L", "roll_off_gain", {"paper": 3.84},
+     "set nonlinear y via sqrt(y) inverse y**2\nset yrange [0:130]\nset ytics (0, 5, 10, 20, 50, 100)"),
 )
 
 
