@@ -14,7 +14,7 @@ set -euo pipefail
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
 for folder in LSM_BIN LSM_BUILD_DIR LSM_OUTPUT; do # seen from here, not from the folder of the run
-  [ -z "${!folder:-}" ] || printf -v $folder %s "$(realpath -m "${!folder}")"
+  [[ -z ${!folder:-} || ${!folder} = /* ]] || printf -v $folder %s "$PWD/${!folder}"
 done
 steps=${1:-480000}
 [[ $steps =~ ^[1-9][0-9]*$ ]] || {

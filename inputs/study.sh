@@ -13,7 +13,7 @@ refuse() {
   echo "study.sh: $*" >&2
   exit 1
 }
-[ -z "${LSM_BIN:-}" ] || LSM_BIN=$(realpath -m "$LSM_BIN") # Snakemake changes its folder
+[[ -z ${LSM_BIN:-} || $LSM_BIN = /* ]] || LSM_BIN=$PWD/$LSM_BIN # Snakemake changes its folder
 table=$1 settings=() hours=
 [ -f "$table" ] || table=$root/inputs/studies/$1.csv
 [ -f "$table" ] || refuse "$1: no such table, expected a file or one of $(ls "$root/inputs/studies" | sed -n 's/\.csv$//p' | xargs)"

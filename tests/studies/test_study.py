@@ -11,14 +11,17 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from data_files import header  # noqa: E402
 from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # noqa: E402
 
 sys.path.insert(0, str(INPUTS / "studies"))
 from calibrate import LOADING  # noqa: E402
+from progress import RunProgress  # noqa: E402
 from study_tables import Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
@@ -298,6 +301,36 @@ def test_what_another_user_left_is_named(study, work):
     assert list(table()) == ["c_1", "c_2"]
 
 
+RUN = Program("run.py", sys.executable, INPUTS / "run.py", errors=lambda result: [line for line in result.err.splitlines() if "run.py: " in line])
+
+
+def test_options_of_two_values(binaries, work):
+    run(RUN, ["c", "slider", 1, 1000, binaries, "blocks=16", "steps=1000", "friction-range=0.6 0.7"])
+    assert header("c/catalogue.csv")["friction_low"] == "0.6" and header("c/catalogue.csv")["friction_high"] == "0.7"
+
+
+def test_a_warning_is_not_why_a_program_failed(binaries, work):
+    words = ["c", "slider", 1, 1000, binaries, "blocks=64", "scheme=printed", "dt=0.05", "steps=20000", "velocity=0.1"]
+    run(RUN, words)
+    assert "slider_cli: warning: " in Path("c/output.txt").read_text()
+    Path("c/done.json").unlink()
+    Path("c/summary.json").unlink()
+    Path("c/catalogue.csv").write_text(Path("c/catalogue.csv").read_text().replace("# model = block-slider\n", ""))
+    said = run(RUN, words, status=1).err
+    assert "no model in the header" in said and "warning" not in said
+
+
+def test_a_run_that_goes_on_is_not_done(work):
+    """The number of steps is what the run says; that of the table may be a default."""
+    Path("c").mkdir()
+    one = RunProgress(SimpleNamespace(name="c", program="slider", settings={"paper": "yes", "blocks": "1928"}, catalogue="c/catalogue.csv"))
+    for said, share in (("step 1300000 of 10000000, 5 events\n", 0.13), ("step 10000000 of 10000000, 5 events\n", 1)):
+        Path("c/output.txt").write_text(said)
+        assert one.share() == pytest.approx(share, abs=1e-3) and one.share() < 1
+    Path("c/done.json").write_text("{}")
+    assert one.share() == 1
+
+
 def test_what_is_made_is_told_at_the_end(study, work):
     write(CHAIN)
     said = run(study, "my.csv").err
@@ -500,7 +533,9 @@ def test_studies_that_ship(binaries, work, name):
 @pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
 def test_settings_of_studies_that_ship(lmp, binaries, work, name):
     """All values of variables are valid, and none is without effect beside others; nothing is run."""
-    Path("variables.in").write_text(f"lsm_variables {INPUTS}/fault.variables\n")
+    Path("variables.in").write_text("lsm_variables fault.variables\n")
+    for file in (INPUTS / "fault.variables", *INPUTS.glob("fault_*.in")):  # `extra` names scenes
+        Path(file.name).symlink_to(file)
     study = Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)}))
     settings = {
         tuple(word for word in one.words if not word.startswith(("seed=", "steps=")))
