@@ -31,9 +31,6 @@ struct SizeDensity {
   std::vector<LogBin> bins;  ///< with Poisson errors; empty if no event is in the range
 };
 
-/// The same for one catalogue, which may have no events.
-SizeDensity size_density(const EventTable &table, const DensitySettings &settings);
-
 /// Bins the sizes of each catalogue. Where magnitudes are in bins of their own, a bin of sizes
 /// holds a whole number of these, the nearest to the factor, from the smallest size on: any others
 /// would hold now more, now fewer of them. \return densities in the order of the catalogues \throws
@@ -41,6 +38,9 @@ SizeDensity size_density(const EventTable &table, const DensitySettings &setting
 /// event in the range, or all sizes are equal
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
                                         const DensitySettings &settings);
+
+/// The same for one catalogue, which may have no events.
+SizeDensity size_density(const EventTable &table, const DensitySettings &settings);
 
 /// Amplitude C of the density C s^-alpha of all events in the bins, for a law that was fitted to
 /// some of them.
