@@ -5,7 +5,8 @@ import math
 
 
 def header_of(lines):
-    return dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line.startswith("# ") and " = " in line)
+    pairs = (line[1:].partition("=") for line in lines if line.startswith("#") and "=" in line)
+    return {key.strip(): value.strip() for key, _, value in pairs}
 
 
 def rows_of(lines):

@@ -84,15 +84,22 @@ class AftershockRates : public Statistic {
 
   Results of(const std::vector<EventTable> &tables) override {
     std::vector<AftershockCurve> curves;
-    for (const EventTable &table : tables)
-      curves.push_back(
-          {table.label, table.info.model,
-           aftershocks_of(table, rule_for(table), hold_c_, factor_, replicas_, seed_)});
+    Results results;
+    for (const EventTable &table : tables) {
+      try {
+        curves.push_back(
+            {table.label, table.info.model,
+             aftershocks_of(table, rule_for(table), hold_c_, factor_, replicas_, seed_)});
+      } catch (const DegenerateData &few) {
+        if (tables.size() == 1) throw;
+        results.warn(few.what());
+      }
+    }
+    if (curves.empty()) throw DegenerateData("none of the catalogues has main shocks");
     // Having no aftershocks is a result as well, but there is nothing to draw.
     const bool none = std::all_of(curves.begin(), curves.end(), [](const AftershockCurve &curve) {
       return curve.aftershocks.bins.empty();
     });
-    Results results;
     results.say(texts(threshold_, tables));
     results.table("laws", aftershock_table(curves), ".omori");
     if (Table means = aftershock_means(curves); means.rows() > 0)

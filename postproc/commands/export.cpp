@@ -18,12 +18,12 @@ namespace {
 
 /// UTC date with microseconds, or "" outside the years that the readers of the format know.
 /// \param seconds since `start`
-/// \param start in seconds since 1970
+/// \param start in microseconds since 1970
 std::string utc_text(double seconds, std::int64_t start, int last_year) {
   // Keeps the integers below from overflowing. 1e12 s is longer than all valid years.
   if (!(std::fabs(seconds) < 1e12)) return {};
   const date::sys_time<std::chrono::microseconds> at(
-      std::chrono::seconds(start) + std::chrono::microseconds(std::llround(seconds * 1e6)));
+      std::chrono::microseconds(start + std::llround(seconds * 1e6)));
   const int year = static_cast<int>(date::year_month_day(date::floor<date::days>(at)).year());
   return year < 1700 || year > last_year ? std::string() : date::format("%FT%T", at);
 }
@@ -71,9 +71,12 @@ std::string quakeml_event(const Exported &e) {
   pugi::xml_node origin = event.append_child("origin");
   origin.append_attribute("publicID") = (name + "/origin").c_str();
   value(origin, "time", e.date + "Z");
-  value(origin, "longitude", fmt::format("{}", e.longitude));
-  value(origin, "latitude", fmt::format("{}", e.latitude));
-  if (!std::isnan(e.depth)) value(origin, "depth", fmt::format("{}", 1000.0 * e.depth));
+  const auto known = [&](const char *what, double number) {
+    if (!std::isnan(number)) value(origin, what, fmt::format("{}", number));
+  };
+  known("longitude", e.longitude);
+  known("latitude", e.latitude);
+  known("depth", 1000.0 * e.depth);
   pugi::xml_node magnitude = event.append_child("magnitude");
   magnitude.append_attribute("publicID") = (name + "/magnitude").c_str();
   value(magnitude, "mag", fmt::format("{}", e.magnitude));
@@ -173,7 +176,7 @@ class Export : public CatalogueAnalysis {
                       missing));
   }
 
-  /// Seconds since 1970 of model time 0.
+  /// Microseconds since 1970 of model time 0.
   /// \throws std::invalid_argument for impossible options
   std::int64_t checked_start() const {
     magnitudes_.check();
@@ -182,7 +185,7 @@ class Export : public CatalogueAnalysis {
     if (!days)
       throw std::invalid_argument(fmt::format(
           "--start-date '{}': expected a date YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS", start));
-    return std::llround(*days * 86400.0);
+    return std::llround(*days * 86400e6);
   }
 
   /// Degrees of longitude per unit of model length.

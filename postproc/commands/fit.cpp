@@ -68,6 +68,8 @@ class Fit : public Statistic {
     out.column("degenerate", "degenerate", [](auto &line) { return line.found.free.why; });
     for (const EventTable &table : tables) {
       const double least = settings_.threshold.of(table).size;
+      if (!(least > 0.0))
+        throw std::invalid_argument("--roll-off of sizes from 0 on, expected --threshold above 0");
       out.row({table, least, roll_off(table, least)});
     }
     return Table(std::move(out));

@@ -48,7 +48,9 @@ inline double bin_of(double magnitude, double width) {
   return std::floor(magnitude / width + 0.5 + magnitude_tolerance);
 }
 /// The double nearest to a number of up to nine decimals, as if it had been typed.
-inline double nearest_decimal(double number) { return std::round(number * 1e9) / 1e9; }
+inline double nearest_decimal(double number) {
+  return std::round(number * 1e9) / 1e9 + 0.0;  // -0 becomes 0
+}
 
 /// Rounds to the nearest multiple of width, halves upwards; width 0: leaves the magnitude as it is.
 double binned(double magnitude, double width);

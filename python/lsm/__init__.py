@@ -93,6 +93,7 @@ def read_catalogue(path, lenient=False):
     some = lines[first + 1].split(",") if len(lines) > first + 1 else names
     shown = [k for k, (name, field) in enumerate(zip(names, some)) if name in _COMMON or _is_number(field) or some is names]
     finite = [k for k, column in enumerate(shown) if names[column] in _COMMON]
+    identity = next((k for k, column in enumerate(shown) if names[column] == "event_id"), None)
     rows = []
     for number, line in enumerate(lines[first + 1:], first + 2):
         fields = line.split(",")
@@ -102,10 +103,15 @@ def read_catalogue(path, lenient=False):
             row = tuple(kinds[k](fields[k]) for k in shown)
             if not all(math.isfinite(row[k]) for k in finite):
                 raise ValueError
-            rows.append(row)
         except (ValueError, OverflowError):
             if not lenient:
                 raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
+            continue
+        if identity is not None and rows and row[identity] <= rows[-1][identity]:
+            if not lenient:
+                raise ValueError(f"{path}:{number}: event_id {row[identity]} after {rows[-1][identity]}, expected increasing event_id")
+            continue
+        rows.append(row)
     return Table(np.array(rows, [(names[k], kinds[k]) for k in shown]), _parameters(lines[:first]))
 
 

@@ -32,7 +32,8 @@ def regime(pe, spacing, length=math.nan, window=WINDOW):
     if not len(changes):
         return dict(saw_tooth=None, why=f"the series is shorter than two windows of {window:g} time units: too short to tell a regime by")
     if not len(rises) or not len(falls):
-        what = f"PE only {'rises' if len(rises) else 'falls'} over {len(changes)} windows of {window:g} time units"
+        does = "only rises" if len(rises) else "only falls" if len(falls) else "does not change"
+        what = f"PE {does} over {len(changes)} windows of {window:g} time units"
         return dict(saw_tooth=None, why=f"{what}: no events to tell a regime by")
     rise, fall = (np.sum(some**2) / np.sum(some) / window for some in (rises, falls))
     above, largest = stick_slip_above(length), np.sort(rises)[int(0.99 * (len(rises) - 1))]

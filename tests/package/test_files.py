@@ -78,6 +78,7 @@ def test_a_line_that_is_still_being_written_is_no_event(work):
                                         (CATALOGUE.replace("catalogue 1", "catalogue 2"), "format 'lsm-catalogue 2', expected 'lsm-catalogue 1'"),
                                         ("# lsm-catalogue 1\n# model = lsm\n", "no line of columns"),
                                         (CATALOGUE.replace("0.25", "x"), r":5: '1,0.5.*', expected 9 numbers"),
+                                        (CATALOGUE.replace("\n3,", "\n1,"), ":6: event_id 1 after 1, expected increasing event_id"),
                                         (CATALOGUE.replace(",8\n", "\n"), r":6: .*expected 9 numbers")])
 def test_catalogue_that_is_none(work, text, said):
     (work / "a.csv").write_text(text)

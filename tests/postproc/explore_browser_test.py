@@ -6,7 +6,9 @@ Makes a small run (of the fault if there is an lmp, with ruptures and slip histo
 page in a headless Chromium and does what a person does. Skips with the reason where there is no browser."""
 
 import csv
+import datetime
 import json
+import math
 import os
 import shlex
 import random
@@ -65,6 +67,15 @@ def add_header(path, line):
         out.write(text.replace("\nevent_id,", f"\n# {line}\nevent_id,", 1))
 
 
+def earthquakes(path):
+    """400 earthquakes of the Gutenberg-Richter law, a day from one to the next."""
+    with open(path, "w") as out:
+        out.write("time,latitude,longitude,mag\n")
+        for k in range(400):
+            day = datetime.date(1990, 1, 1) + datetime.timedelta(days=k)
+            out.write(f"{day}T00:00:00Z,35,-117,{2 - math.log10((k * 149 % 400 + 0.5) / 400):.1f}\n")
+
+
 class Page(unittest.TestCase):
 
     @classmethod
@@ -84,6 +95,8 @@ class Page(unittest.TestCase):
         run(slider, "--blocks", "128", "--steps", "600000", "--catalogue", "other.csv")
         add_header("run.catalogue.csv", f"note = {HOSTILE}")
         run(postproc, "explore", "run.catalogue.csv", "-o", "page.html", "--title", HOSTILE)
+        earthquakes("quakes.csv")
+        run(postproc, "explore", "quakes.csv", "-o", "quakes.html")
         run(postproc, "explore", "run.catalogue.csv", "other.csv", "--label", HOSTILE, "--label", "slider", "-o", "two.html")
         cls.events = catalogue("run.catalogue.csv")
         cls.largest = max(cls.events, key=lambda event: event["size"])
@@ -396,6 +409,16 @@ class Page(unittest.TestCase):
         self.assertEqual(self.text("h1"), HOSTILE)
         self.assertIn(HOSTILE, [cell.get_attribute("textContent") for cell in self.driver.find_elements(By.CSS_SELECTOR, "#parameters td")])
         self.assertEqual(self.driver.find_elements(By.CSS_SELECTOR, "img[src=x]"), [])
+
+    def test_units_of_earthquakes(self):
+        self.open("quakes.html")
+        self.assertIn("400 earthquakes in 399 days", self.text("main, body"))
+        labels = [label.text for label in self.driver.find_elements(By.CSS_SELECTOR, ".dygraph-xlabel")]
+        self.assertEqual(labels.count("smallest size (10^(1.5 M))"), 3)
+        self.assertIn("Time (days since 1970)", labels)
+        for graph in "exponents", "gammas":  # without a line of the paper
+            low, high = self.js(f"return app.statistics.graphs['{graph}'].yAxisRange()")
+            self.assertLess(low, high)
 
     def test_two_runs(self):
         self.open("two.html")

@@ -316,6 +316,16 @@ def test_export_converts_earthquakes(postproc, work):
     refused(postproc, "export c.csv -o x.csv --unit-length 100", "no --p-speed")
 
 
+def test_export_of_a_place_that_is_not_known(postproc, work):
+    Path("q.csv").write_text("time,latitude,longitude,depth,mag\n2020-01-01T00:00:00Z,,,,3.2\n2020-01-02T00:00:00Z,35.1,-117.2,,3.4\n")
+    run(postproc, "export q.csv -o q.xml --format quakeml")
+    text = Path("q.xml").read_text()
+    assert "nan" not in text
+    assert [re.findall(rf"<{name}>\s*<value>(.*?)</value>", text) for name in ("latitude", "longitude")] == [["35.1"], ["-117.2"]]
+    run(postproc, "export q.xml -o again.csv")
+    assert [(row["latitude"], row["magnitude"]) for row in table("again.csv")] == [("nan", "3.2"), ("35.1", "3.4")]
+
+
 @pytest.mark.parametrize("line", ["1650-01-01T00:00:00Z,0,0,3"])
 def test_export_of_years_that_readers_do_not_know(postproc, work, line):
     Path("q.csv").write_text(f"time,latitude,longitude,mag\n{line}\n")
@@ -329,6 +339,10 @@ def test_no_events(postproc, work):
     Path("empty.csv").write_text("time,latitude,longitude,mag\n")
     quakes("q.csv", ["2.0", "2.1"] * 20)
     refused(postproc, "aftershocks empty.csv -o o --no-picture", "empty.csv: no events of size")
+    refused(postproc, "aftershocks empty.csv empty.csv -o o --no-picture", "none of the catalogues has main shocks")
+    assert "empty.csv: no events of size" in run(postproc, "aftershocks empty.csv q.csv -o a --no-picture --replicas 0").err
+    assert [row["label"] for row in table("a.omori.csv")] == ["q"]
+    assert re.search(r"complete from +0\n", run(postproc, "magnitudes q.csv -o m --no-picture --complete-from -0.04 --magnitude-bin 0.1").out)
     for command in "magnitudes", "fit", "histograms", "intervals":
         refused(postproc, f"{command} empty.csv -o o --no-picture", "empty.csv: no events, nothing to draw")
         refused(postproc, f"{command} q.csv -o o --no-picture --min-magnitude 5", r"q.csv: no events \(0 left out by time, 40 by size\)")

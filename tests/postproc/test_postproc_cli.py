@@ -303,6 +303,8 @@ def test_export(do, no):
 5,0,4.5,1999-12-31T12:00:00.000000,0,0,1
 10,0,2.5,2000-01-02T12:00:00.000000,0,0,2
 """
+    do("export c.csv -o half.csv --time-unit second --start-date 2000-01-01T00:00:00.75 --magnitude-constant 0")
+    assert table("half.csv")[0]["time"] == "2000-01-01T00:00:00.750000"
     do("export c.csv c.csv -o two.csv --min-size -10").printed("^8 events; left out: 2 of size <= 0")
     assert sorted(row["catalog_id"] for row in table("two.csv")) == ["0"] * 4 + ["1"] * 4
     no("s.csv: exists already", "export c.csv -o s.csv")
@@ -681,13 +683,14 @@ def test_select(do, no):
     no("earthquakes, expected a catalogue of a model", f"select {CALIFORNIA} -o x.csv")
 
 
-def test_conditions_on_the_size_say_what_is_complete(do):
+def test_conditions_on_the_size_say_what_is_complete(do, no):
     sizes = 1e-3 / np.random.default_rng(2).uniform(size=3000)
     write_catalogue("c.csv", np.arange(3000.0), sizes)
     do("fit c.csv --min-size 0.01 --json one.json")
     do("fit c.csv --json two.json", ["--where", "size >= 0.01"])
     one, two = (json.loads(Path(name).read_text())["fits"] for name in ("one.json", "two.json"))
     assert one == two and one[0]["exponent"] == pytest.approx(2, abs=0.2)
+    no("--roll-off of sizes from 0 on, expected --threshold above 0", "fit c.csv -o x --no-picture --threshold 0 --roll-off --replicas 0")
     do("select c.csv -o part.csv", ["--where", "size > 0.01"])
     assert float(header("part.csv")["min_size"]) == 0.01
 

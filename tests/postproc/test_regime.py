@@ -64,7 +64,8 @@ def test_the_fastest_fall_is_measured_by_the_largest_rises():
 
 
 def test_without_a_fall_or_a_rise_there_is_none():
-    for pe, why in ((np.arange(100), "PE only rises"), (-np.arange(100), "PE only falls"), ([0], "shorter than two windows of 1 time units")):
+    for pe, why in ((np.arange(100), "PE only rises"), (-np.arange(100), "PE only falls"), ([2] * 9, "PE does not change"),
+                    ([0], "shorter than two windows of 1 time units")):
         found = regime(np.array(pe), 1.0, 120, 1.0)
         assert found["saw_tooth"] is None and why in found["why"]
 

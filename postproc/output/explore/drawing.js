@@ -23,6 +23,13 @@ function slipColour(shade) {
 }
 const slipColours = Array.from({length: 256}, (_, shade) => slipColour(shade));
 
+/** What events, sizes and times of a run are; earthquakes have the units of postproc's other commands. */
+function unitsOf(run) {
+  return run.info.model === 'seismicity'
+    ? {events: 'earthquakes', size: '10^(1.5 M)', time: 'days since 1970', duration: 'days'}
+    : {events: 'events (drops of PE)', size: 'model energy', time: 'model units', duration: 'time units'};
+}
+
 /** A number with so many significant digits, without zeros at its end. */
 function short(x, digits = 5) {
   if (x === null || x === undefined || Number.isNaN(x)) return '–';

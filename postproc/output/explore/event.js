@@ -38,7 +38,7 @@ class EventPanel {
       if (name === 'event_id' || (name !== 'duration' && !events.has(name))) continue;
       const [label, unit] = columnNames[name], value = events.get(name, index);
       const pair = element('div');
-      pair.append(element('dt', label, unit ? {title: `${name}, ${unit} in model units`} : {title: name}),
+      pair.append(element('dt', label, {title: unit ? `${name}, ${unit}` : name}),
         element('dd', name.startsWith('step') ? String(value) : short(value, 8), {'data-column': name, 'data-value': String(value)}));
       list.append(pair);
     }

@@ -143,7 +143,7 @@ class App {
       const events = this.eventsOf(run), {columns, info} = events, i = events.bySize[0], view = this.views[this.runs.indexOf(run)];
       const joined = run.series && run.series.info.kept < run.series.info.samples
         ? `; of ${run.series.info.samples} samples the smallest and largest of each few are kept` : '';
-      return `${this.runs.length > 1 ? `${run.info.label}: ` : ''}${info.count} ${info.kind === 'drops' ? 'events (drops of PE)' : info.kind} in ${short(view.end - view.begin, 6)} time units; ` +
+      return `${this.runs.length > 1 ? `${run.info.label}: ` : ''}${info.count} ${info.kind === 'drops' ? unitsOf(run).events : info.kind} in ${short(view.end - view.begin, 6)} ${unitsOf(run).duration}; ` +
         `the largest, ${columns.event_id[i]}, has size ${short(columns.size[i], 4)} and begins at time ${short(columns.t_start[i], 8)}${joined}.`;
     });
     const repairs = this.runs.flatMap(run => run.kinds.flatMap(kind => kind.info.repairs));

@@ -115,8 +115,10 @@ class Statistics {
 
   printed(name) {
     const values = {exponent: {lsm: 1.07, 'block-slider': 1.0}, gamma: {lsm: 0.995, 'block-slider': 0.0}};
-    return [...new Set(this.entries.map(entry => values[name][entry.run.info.model]))];
+    return [...new Set(this.entries.map(entry => values[name][entry.run.info.model]))].filter(Number.isFinite);
   }
+
+  sizeLabel() { return `size (${[...new Set(this.entries.map(entry => unitsOf(entry.run).size))].join(', ')})`; }
 
   curveOf(entry, numberOf) {
     return entry.events.info.thresholds.map(t => [t.size, numberOf(t)]).filter(([, number]) => number && Number.isFinite(number.value))
@@ -131,7 +133,7 @@ class Statistics {
     const densities = this.entries.map(entry => entry.events.info.densities.map(Statistics.barOfBin));
     this.sizeCurves = densities;
     this.sizeRanges = rangesOf(densities, true);
-    this.logGraph('sizes', 'size (model energy)', 'density', this.sizeRanges, true);
+    this.logGraph('sizes', this.sizeLabel(), 'density', this.sizeRanges, true);
     this.logGraph('times', 'time between events', 'density', {x: [0.1, 10], y: [0.1, 10]}, false);
   }
 
@@ -152,7 +154,7 @@ class Statistics {
     ranges.x = [first / 1.2, last * 1.2];
     const names = this.entries.map(entry => `run ${entry.k}`);
     const graph = this.replace(id, this.rowsOf(curves, ranges), {
-      ...this.options('smallest size (model energy)', name, ranges),
+      ...this.options(`smallest ${this.sizeLabel()}`, name, ranges),
       labels: ['size', ...names],
       series: Object.fromEntries(this.entries.map((entry, i) => [names[i], {plotter: markPlotter(entry.k, true)}])),
       axes: {x: {logscale: true, ticker: logTicks, pixelsPerLabel: 26}, y: {axisLabelWidth: 46}},

@@ -71,7 +71,7 @@ class View {
     this.sizeGraph = new Dygraph(this.sizeBox, this.sizeData(), {
       ...common, ...(this.run.series ? {} : selector), labels: ['time', 'size'], colors: ['#0072B2'], highlightCircleSize: 0,
       axes: {x: axes.x, y: {...axes.y, logscale: true, ticker: logTicks, pixelsPerLabel: 12}},
-      ylabel: 'Size of events', xlabel: this.run.slip ? '' : 'Time (model units)', valueRange: this.sizeRange(),
+      ylabel: 'Size of events', xlabel: this.run.slip ? '' : `Time (${unitsOf(this.run).time})`, valueRange: this.sizeRange(),
       plotter: e => this.plotSizes(e),
       underlayCallback: (context, area, graph) => this.markThreshold(context, area, graph)
     });
