@@ -90,8 +90,12 @@ void ComputeLSMEvents::init()
   if (modify->get_fix_by_id(id_of_fix()) != recorder)
     error->all(FLERR, "Compute lsm/events {}: its fix {} is gone; use uncompute to end recording",
                id, id_of_fix());
+  LSMScene::require_plain_units(lmp, "Compute lsm/events");
   sources.check(recorder, options.ledger);
   sources.find(options.ledger);
+  if (settings.records_slip() && domain->triclinic)
+    error->all(FLERR, "Compute lsm/events {}: the box is triclinic, but must not be for {}", id,
+               settings.asked_by());
   if (settings.records_slip() && LSMScene::pairs_on_inner_level(update))
     error->all(FLERR,
                "Compute lsm/events {}: {} need one force of contacts a step; with run_style respa "

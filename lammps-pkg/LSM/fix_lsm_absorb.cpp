@@ -2,11 +2,12 @@
 
 #include "fix_lsm_absorb.h"
 
-#include "atom.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_lsm_nve.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_fixes.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -44,9 +45,12 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
 void FixLSMAbsorb::init()
 {
   LSMScene::require_verlet(lmp, "Fix lsm/absorb");
+  LSMScene::require_plain_units(lmp, "Fix lsm/absorb");
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix lsm/absorb {}: group {} has no particles, expected those of a border",
                id, group->names[igroup]);
+  borders = lsm_fixes<FixLSMAbsorb>(modify);
+  integrators = lsm_fixes<FixLSMNVE>(modify);
 }
 
 // Within a run, velocities are half a step older than the forces. The dashpot acts on the velocity
@@ -54,10 +58,15 @@ void FixLSMAbsorb::init()
 // order, and stable for any impedance. In the setup, velocities and forces are of the same time.
 //
 // With velocity Verlet the work of a force in the two halves of the steps before and after it is
-// force times the velocity of its time, so the loss is known exactly.
+// force times the velocity of its time, so the loss is known exactly. Viscosity by fix lsm/nve
+// multiplies velocities by a factor between the first half and this time, and again between this
+// time and the second half.
+//
+// Where borders meet, the dashpots of all of them act on the same velocity, which needs their sum:
+// the last of these fixes acts for all.
 void FixLSMAbsorb::post_force(int /*vflag*/)
 {
-  domain->dimension == 3 ? absorb<3>() : absorb<2>();
+  if (this == borders.back()) domain->dimension == 3 ? absorb<3>() : absorb<2>();
 }
 
 template <int DIM> void FixLSMAbsorb::absorb()
@@ -65,18 +74,32 @@ template <int DIM> void FixLSMAbsorb::absorb()
   const double half = update->setupflag ? 0.0 : 0.5 * update->dt;
   double **v = atom->v;
   double **f = atom->f;
-  double lost = 0.0;
+  int bits = 0;
+  for (FixLSMAbsorb *border : borders) {
+    bits |= border->groupbit;
+    border->work_absorbed += half * border->rate;
+    border->rate = 0.0;
+  }
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & bits)) continue;
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     const double kick = half * force->ftm2v / mass;
+    double decay = 1.0;
+    for (const FixLSMNVE *integrator : integrators)
+      if (atom->mask[i] & integrator->groupbit)
+        decay *= integrator->decay_in_half_step(atom->type[i]);
+    double drag[DIM] = {}, now[DIM];
+    for (const FixLSMAbsorb *border : borders)
+      for (int c = 0; c < DIM; c++) drag[c] += border->drag(i, c, mass);
     for (int c = 0; c < DIM; c++) {
-      const double drag = of_mass ? dashpot[c] * mass : dashpot[c];
-      const double now = (v[i][c] + kick * f[i][c]) / (1.0 + kick * drag);
-      f[i][c] -= drag * now;
-      lost += drag * now * now;
+      now[c] = decay * (v[i][c] + kick * f[i][c]) / (1.0 + kick * drag[c] * decay);
+      f[i][c] -= drag[c] * now[c];
+    }
+    for (FixLSMAbsorb *border : borders) {
+      double lost = 0.0;
+      for (int c = 0; c < DIM; c++) lost += border->drag(i, c, mass) * now[c] * now[c];
+      border->work_absorbed += half * lost / decay;
+      border->rate += lost * decay;
     }
   }
-  work_absorbed += half * (rate + lost);
-  rate = lost;
 }

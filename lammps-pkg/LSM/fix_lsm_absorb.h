@@ -10,8 +10,11 @@ FixStyle(lsm/absorb,FixLSMAbsorb);
 #ifndef LMP_FIX_LSM_ABSORB_H
 #define LMP_FIX_LSM_ABSORB_H
 
+#include "atom.h"
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
+
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -30,8 +33,17 @@ class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
  private:
   double dashpot[3];    // force over velocity of each particle, along the axes
   bool of_mass;         // the same over mass
+  double rate = 0.0;    // energy lost per time in the second half of the last step, this rank
+  std::vector<FixLSMAbsorb *> borders;    // all fixes of this style, and all that integrate
+  std::vector<class FixLSMNVE *> integrators;
+
+  /// Force over velocity of a particle along an axis; 0 outside of the group.
+  double drag(int i, int c, double mass) const
+  {
+    if (!(atom->mask[i] & groupbit)) return 0.0;
+    return of_mass ? dashpot[c] * mass : dashpot[c];
+  }
   template <int DIM> void absorb();
-  double rate = 0.0;    // energy lost per time in the last step, this rank
 };
 
 }    // namespace LAMMPS_NS

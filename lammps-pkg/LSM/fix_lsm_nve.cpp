@@ -81,6 +81,7 @@ void FixLSMNVE::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
+  if (viscous) LSMScene::require_plain_units(lmp, "Fix lsm/nve viscosity");
   leave_clearing_to_integrator();    // a run that ended in an error has not
   reset_dt();
 }

@@ -49,6 +49,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void add_longest_moves(std::vector<double> &of_blocks) const override;
   void raise_viscosity(double least);    // temporarily, to at least this; 0: as given
   std::string viscosity() const;         // one value, or one per type
+  double decay_in_half_step(int type) const { return decay[type]; }    // of the velocity
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.sum(self.work_viscosity);

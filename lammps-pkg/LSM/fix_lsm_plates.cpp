@@ -84,6 +84,7 @@ int FixLSMPlates::setmask()
 void FixLSMPlates::init()
 {
   LSMScene::require_verlet(lmp, "Fix lsm/plates");
+  LSMScene::require_plain_units(lmp, "Fix lsm/plates");
   if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
     error->all(FLERR, "Fix lsm/plates needs a box that is periodic in x and z and not in y "
                       "(boundary p f p)");

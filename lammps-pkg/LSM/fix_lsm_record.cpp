@@ -21,6 +21,7 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   nevery = 1;
   if (!faces) return;
   directions = domain->dimension == 3 ? 2 : 1;
+  create_attribute = 1;    // new particles have not moved
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
 }

@@ -186,6 +186,16 @@ std::vector<double> FixLSMTraction::shares(int s) const
   return share;
 }
 
+// Contacts of all other particles have their radii, which may have changed, and so have those that
+// were added to a face: their stored radius is 0.
+void FixLSMTraction::pre_neighbor()
+{
+  find_store();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (contact_radius[i] == 0.0 || !(atom->mask[i] & (side[BELOW] | side[ABOVE])))
+      contact_radius[i] = atom->radius[i];
+}
+
 // Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and
 // their tangential springs begin with the elongation that the shear traction needs: no particle
 // moves and no link is strained.

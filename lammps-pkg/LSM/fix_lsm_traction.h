@@ -26,8 +26,13 @@ class FixLSMTraction :
   FixLSMTraction(class LAMMPS *, int, char **);
   ~FixLSMTraction() override;
   void post_constructor() override;
-  int setmask() override { return FixConst::PRE_FORCE | FixConst::POST_FORCE; }
+  int setmask() override
+  {
+    return FixConst::PRE_NEIGHBOR | FixConst::PRE_FORCE | FixConst::POST_FORCE;
+  }
   void init() override;
+  void setup_pre_neighbor() override { pre_neighbor(); }
+  void pre_neighbor() override;
   void setup_pre_force(int) override;
   void setup(int vflag) override { post_force(vflag); }
   void post_force(int) override;

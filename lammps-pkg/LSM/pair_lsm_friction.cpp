@@ -250,6 +250,10 @@ void PairLSMFriction::init_style()
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
 
+  if (force->newton_pair && comm->style == Comm::TILED)
+    error->all(FLERR,
+               "Pair style lsm/friction with newton on does not work with comm_style tiled; use "
+               "newton off");
   if (table.law->needs_time && LSMScene::pairs_on_inner_level(update))
     error->all(FLERR,
                "Pair style lsm/friction: law {} needs the time of a step; with run_style respa put "

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "disc_scene.h"
 #include "lmp_runner.h"
 #include "files/slip_history.h"
 #include "read_catalogue.h"
@@ -215,6 +216,30 @@ static std::string packing(const std::string &shear, const std::string &share = 
          "variable shear atom " +
          shear + "\nfix load all lsm/traction lower upper 1e-6 v_shear " + share +
          "\nfix caps caps lsm/absorb y 0.6 0.3 0.5\nfix move all lsm/nve\ntimestep 0.02\n";
+}
+
+TEST_F(Benchmark, CornersAndViscousParticlesAreAbsorbedWithSecondOrder) {
+  // A free disc of mass 1 with an impedance of 1 across each border, 0.6 along it and viscosity nu:
+  // its velocity decays with the sum of all three.
+  for (const auto &[corner, nu] : {std::pair<bool, double>{false, 0.5}, {true, 0.0}, {true, 0.5}}) {
+    std::vector<double> error, residual;
+    for (const double dt : {0.05, 0.025}) {
+      const Result r = run_text(
+          discs({{"0", "0"}}) +
+          "velocity all set 0.1 0 0\npair_style lsm/free\n"
+          "pair_coeff * * 1\nbond_style lsm/linked\nbond_coeff 1 1\nfix move all lsm/nve viscosity " +
+          text(nu) + "\nfix x all lsm/absorb x 1.0 0.6 1.0\n" +
+          (corner ? "fix y all lsm/absorb y 1.0 0.6 1.0\n" : "") + "timestep " + text(dt) +
+          "\ncompute events all lsm/events ledger yes\nvariable v equal vcm(all,x)\n" +
+          "thermo_style custom step v_v c_events[13]\nthermo_modify norm no format float %.17g\nrun " +
+          std::to_string(std::lround(1.0 / dt)) + "\n");
+      ASSERT_TRUE(succeeded(r));
+      error.push_back(std::fabs(r.last("v_v") - 0.1 * std::exp(-(corner ? 1.6 : 1.0) - nu)));
+      residual.push_back(std::fabs(r.last("c_events[13]")));
+    }
+    for (const auto &halved : {error, residual})
+      EXPECT_NEAR(halved[0] / halved[1], 4.0, 0.4) << corner << " " << nu;
+  }
 }
 
 TEST_F(Benchmark, MirroredPackingIsLoadedAsAWhole) {

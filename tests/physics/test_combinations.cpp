@@ -214,6 +214,30 @@ TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
   }
 }
 
+TEST_F(BetweenRuns, ParticlesThatAreNewInALoadedFaultHaveTheirOwnRadius) {
+  // Atom 96 is the last of the upper border; a new disc of diameter 1 overlaps it by 0.1, and by
+  // 0.35 once its diameter is 1.5.
+  const std::string scene =
+      discs_start +
+      "create_lsm_fault lattice length 10 width 8 spacing 1 mass r2 $(2*sqrt(3)) margin 4\n"
+      "bond_style lsm/linked\nbond_coeff * 1\npair_style lsm/friction\npair_coeff * * 1 1 0.6\n"
+      "group lower type 3\ngroup upper type 4\nfix move all lsm/nve\n"
+      "fix load all lsm/traction lower upper 0.01 0.0\ntimestep 0.1\n" +
+      recorded() + "variable x equal x[96]\nvariable y equal y[96]\n";
+  for (int ranks : {1, 2}) {
+    const Result r = run_text(scene +
+                                  "run 0\ncreate_atoms 1 single ${x} $(v_y+0.9) 0\n"
+                                  "set atom 97 diameter 1\nset atom 97 mass 1\nrun 0\n"
+                                  "set atom 97 diameter 1.5\nrun 0\n",
+                              {}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    ASSERT_EQ(r.thermo.size(), 3u);
+    const auto contacts = [&r](int run) { return r.thermo[run].at("c_events[7]"); };
+    EXPECT_NEAR(contacts(1) - contacts(0), 0.5 * 0.1 * 0.1, 1e-12);
+    EXPECT_NEAR(contacts(2) - contacts(0), 0.5 * 0.35 * 0.35, 1e-12);
+  }
+}
+
 TEST_F(BetweenRuns, PiecesOfARunStayAsTheyWere) {
   // Without a command between the runs there is no warning, and all digits are the same.
   const std::string scene = shear_contact() + "velocity top set 0.05 0 0\nfix move all lsm/nve\n" +
@@ -465,6 +489,27 @@ TEST_F(Refused, RecordingWhoseFixIsGone) {
       {"lsm/events", "events_record"}));
 }
 
+TEST_F(Refused, UnitsInWhichForceTimesDistanceIsNoEnergy) {
+  for (const char *line :
+       {"fix walls all lsm/plates bottom top stress 0.1\n", "fix border top lsm/absorb y 1 1 1\n",
+        "fix move all lsm/nve viscosity 1\n", "compute events all lsm/events\n"}) {
+    std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                        "group bottom id 1\n" + line + "run 0\n";
+    scene.replace(scene.find("units             lj"), 20, "units metal");
+    EXPECT_TRUE(failed_with(run_text(scene), {"units metal; use lj, si, cgs, micro or nano"}))
+        << line;
+  }
+}
+
+TEST_F(Refused, FrictionWithNewtonOnAndTiledRanks) {
+  const std::string scene =
+      "variable newton index on\n" + shear_contact() + "fix move all lsm/nve\n";
+  const std::string tiled = "comm_style tiled\nbalance 1.0 rcb\nrun 1\n";
+  EXPECT_TRUE(failed_with(run_text(scene + tiled, {{"newton", "on"}}, 2),
+                          {"newton on", "comm_style tiled", "newton off"}));
+  EXPECT_TRUE(succeeded(run_text(scene + tiled, {{"newton", "off"}}, 2)));
+}
+
 TEST_F(Refused, FixesThatBreakLinks) {
   // Another program (LSM_LMP) needs a plugin that was compiled for it.
   const char *other = std::getenv("LSM_FOREIGN_FIX");
@@ -607,6 +652,23 @@ TEST_F(Works, StaticFrictionFollowsAnAdaptedCoefficientUnlessItWasGiven) {
   ASSERT_TRUE(succeeded(given));
   EXPECT_GT(given.last("c_events[11]"), 0.0);
   EXPECT_LT(energies_differ(follows, given), 1e-12);
+}
+
+TEST_F(Works, StaticFrictionThatWasNotGivenIsNotWritten) {
+  for (const auto &[given, words] :
+       {std::pair<std::string, std::size_t>{"0.6", 5}, {"0.6 0.8", 6}}) {
+    const std::string pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 " + given + "\n";
+    ASSERT_TRUE(succeeded(
+        run_text(rubbing(pair) + "fix move all lsm/nve\nrun 0\nwrite_data out.data pair ij\n")));
+    std::ifstream file(path("out.data"));
+    std::string line;
+    while (std::getline(file, line) && line.rfind("PairIJ Coeffs", 0) != 0) continue;
+    std::getline(file, line);
+    std::getline(file, line);
+    std::istringstream split(line);
+    const std::vector<std::string> found(std::istream_iterator<std::string>(split), {});
+    EXPECT_EQ(found.size(), words) << line;
+  }
 }
 
 TEST_F(Works, LinksAndFreeContactsInThreeDimensions) {

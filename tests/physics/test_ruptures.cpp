@@ -66,6 +66,24 @@ static std::string without_ranks_and_pe(const std::string &file) {
   return out;
 }
 
+TEST_F(Ruptures, ParticlesThatAreNewHaveNotMoved) {
+  const std::string script =
+      upper_and_lower("history new.slip driving 0.001 bin 2 interval 10 modulus 0.5");
+  const Result r =
+      run_text(script + moved({{3, 0.01}}, 55) +
+               "create_atoms 2 single 30.5 8 0\nset atom 41 diameter 2\nset atom 41 mass 1\n"
+               "group upperface type 2\nrun 45\n");
+  ASSERT_TRUE(succeeded(r));
+  for (const LSM::SlipRecord &record : records_of(path("new.slip")))
+    for (const float slip : record.row.slip) EXPECT_LT(std::fabs(slip), 0.011f);
+}
+
+TEST_F(Ruptures, OfATriclinicBoxAreRefused) {
+  const std::string script = upper_and_lower("history none.slip driving 0.001 bin 2 modulus 0.5");
+  EXPECT_TRUE(failed_with(run_text(script + "change_box all triclinic\nrun 1\n"),
+                          {"lsm/events", "triclinic", "history"}));
+}
+
 // The driving velocity is 0.001, so that bins slip above 0.005; an interval lasts 1.
 TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
   const std::string script =

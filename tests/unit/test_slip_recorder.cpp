@@ -39,6 +39,18 @@ TEST(FaultGrid, IntervalsEndAfterTheFirst) {
   EXPECT_TRUE(grid.ends_interval(200));
 }
 
+// A run that blows up ends at the next check of PE, not at an index outside of an array.
+TEST(FaultGrid, PlacesThatAreNotFiniteHaveABin) {
+  FaultGrid grid = four_bins();
+  for (const bool ring : {true, false}) {
+    grid.ring = ring;
+    for (const double place : std::vector<double>{NAN, INFINITY, -INFINITY, 1e200, -1e200}) {
+      EXPECT_GE(grid.strike().bin(place), 0) << place;
+      EXPECT_LT(grid.strike().bin(place), 4) << place;
+    }
+  }
+}
+
 TEST(SlipRecorder, SumsAlongTheDirectionOfDriving) {
   for (const double forward : {1.0, -1.0}) {
     SlipRecorder recorder;

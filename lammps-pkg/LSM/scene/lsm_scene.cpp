@@ -171,6 +171,13 @@ namespace LSMScene {
       lmp->error->all(FLERR, "{} does not work with run_style respa", who);
   }
 
+  void require_plain_units(LAMMPS *lmp, const std::string &who)
+  {
+    if (lmp->force->ftm2v != 1.0 || lmp->force->mvv2e != 1.0)
+      lmp->error->all(FLERR, "{} does not work with units {}; use lj, si, cgs, micro or nano", who,
+                      lmp->update->unit_style);
+  }
+
   bool pairs_on_inner_level(const Update *update)
   {
     const auto respa = dynamic_cast<const Respa *>(update->integrate);

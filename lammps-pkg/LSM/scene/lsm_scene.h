@@ -69,6 +69,10 @@ namespace LSMScene {
   /// The same without a condition for the dimension.
   void require_verlet(LAMMPS *, const std::string &who);
 
+  /// Stops where energy is not force times distance, or force over mass no acceleration (units
+  /// real, metal and others); `who` begins the message.
+  void require_plain_units(LAMMPS *, const std::string &who);
+
   /// Stops if a fix changes particle radii during a run; `who` begins the message.
   void refuse_changing_radii(LAMMPS *, const std::string &who);
 

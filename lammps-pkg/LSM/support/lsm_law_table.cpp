@@ -168,6 +168,8 @@ void LSMLawTable::keep(LSMRestartFile &file, int i, int j)
 void LSMLawTable::print(FILE *fp, int i, int j) const
 {
   for (int p = 0; p < law->count; p++) {
+    // a coefficient that follows another has to go on following it when it is read again
+    if (law->parameters[p].otherwise == LSM::Parameter::as_least && !given[p][i][j]) continue;
     if (p > 0 && law->named) fprintf(fp, " %s", law->parameters[p].name);
     fprintf(fp, " %.17g", coefficient[p][i][j]);
   }

@@ -27,11 +27,11 @@ struct FaultAxis {
   double length() const { return bins * width; }
   double edge(std::int64_t bin) const { return begin + static_cast<double>(bin) * width; }
   double centre(std::int64_t bin) const { return begin + (static_cast<double>(bin) + 0.5) * width; }
-  /// The bin at a place; that at the end for places beyond an end.
+  /// The bin at a place; that at the end for places beyond an end, or that are not finite.
   int bin(double place) const {
     double along = (place - begin) / length();
     along = ring ? along - std::floor(along) : std::max(along, 0.0);
-    return std::min(static_cast<int>(along * bins), bins - 1);
+    return static_cast<int>(std::min(bins - 1.0, along * bins));
   }
 };
 
