@@ -505,7 +505,7 @@ set datafile separator
         if n == 0:
             script += "set key at screen 0.5,0.005 center bottom vertical maxrows 2 Left reverse samplen 3\n"
             lines += [f"keyentry w yerrorlines {style} t 'impedance {impedance}, length {length}'" for impedance, length, style in styles]
-            lines += [f"keyentry w l {line} t '{name}'" for line, name in zip(printed, ("paper", "earthquakes"))]
+            lines += [f"keyentry w l {line} t '{name}'" for line, name in zip(printed, ("paper, limits †", "earthquakes"))]
         script += f"{how}\nset ylabel '{label}'\nplot {', '.join(lines)}\n{data}unset key\n"
     draw(base, script + "unset multiplot", 1400, 860)
 

@@ -44,7 +44,7 @@ CAMPAIGN, VALIDATION, DAMPING, SLIP, RECIPES = (FOLDER / name for name in ("camp
 PRESETS = {"default": CAMPAIGN, "preset paper": DAMPING, "preset slip": SLIP}
 JUDGED = {folder: slip_or_exchange.FAULTS[folder.name] for folder in (DAMPING, SLIP)}  # events of which are said to be slip or not
 LOADING = str(calibrate.LOADING)
-HALF_STEP_UNTIL = 40100  # of the run at length 480 with half the time step
+HALF_STEP_UNTIL = 57800  # of the run at length 480 with half the time step
 BURST = 0.6  # events that follow another faster are those of short waves
 SIZES = ("1e-4", "1e-3", "1e-2")
 EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
@@ -73,14 +73,19 @@ def faults(kind="catalogue", folder=CAMPAIGN):
     return dict(sorted(groups.items()))
 
 
+def loaded(width):
+    """Time from which catalogues count: wider blocks are loaded later."""
+    return calibrate.LOADING * width / 30
+
+
 @functools.cache
 def summaries(folder=CAMPAIGN):
     """A row of summary.py for each catalogue, with the numbers of statements.py if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     rows = []
     for width, some in itertools.groupby(paths, lambda path: float(catalogues.lsm.read_catalogue(path).header["width"])):
-        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=calibrate.LOADING * width / 30,
-                                parameters=("length", "seed", "width", "dt", "lambda", "mass"))  # wider blocks are loaded later
+        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=loaded(width),
+                                parameters=("length", "seed", "width", "dt", "lambda", "mass"))
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
@@ -212,7 +217,8 @@ def scaling_of(kind, least, folder=CAMPAIGN):
     paths = [path for some in groups.values() for path in some]
     fits = numbers_of("fit", *paths, "--threshold", least, "--from", LOADING, "--range", f"{least}:1", "--replicas", 0, "--no-comparison",
                       "--no-picture")["fits"]
-    found, = scaling.scalings([scaling.load(path, float(LOADING)) for path in paths], float(least))
+    found, = scaling.scalings([scaling.load(path, loaded(float(catalogues.lsm.read_catalogue(path).header["width"]))) for path in paths],
+                              float(least))
     each = iter(zip(fits, found.points))
     return {length: [next(each) for _ in some] for length, some in groups.items()}, found.fit
 
@@ -334,7 +340,7 @@ def widths_table():
             header = catalogues.lsm.read_catalogue(path).header
             length, width = float(header["length"]), float(header["width"])
             if header["dt"] == "0.12":
-                events = catalogues.events_of(path, calibrate.LOADING * width / 30)
+                events = catalogues.events_of(path, loaded(width))
                 events = events[events["size"] >= 1e-2]
                 size, whole = events["size"], events["rupture_length"] >= length
                 numbers = len(size), np.sum(size**2) / np.sum(size), np.sum(whole), 100 * np.sum(size[whole]**2) / np.sum(size**2)
@@ -494,20 +500,25 @@ def in_window(name, begin, end, folder=DAMPING):
 
 def half_step_table():
     """The same with shorter time steps, in the same time; at length 480 of the hardly damped fault from the same state on."""
-    out, first, second = [], ("hardly damped, 120", calibrate.LOADING, 14700), ("hardly damped, 480", 37300, HALF_STEP_UNTIL)
-    slip = "preset slip, 120", calibrate.LOADING, 15000, SLIP
+    out, whole, slip = [], (calibrate.LOADING, 108000), (calibrate.LOADING, 15000, SLIP)
     keys = "mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"
-    for name, (fault, *where) in (("fault_120_4", first), ("t_120_0_0.015_4", first), ("t_120_0_0.0075_4", first), ("fault_480_4", second),
-                                  ("half_480_4", second), ("fault_120_4", slip), ("half_120_4", slip)):
+    runs = [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}", whole) for seed in "456" for step in ("fault", "half")]
+    quarter = [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}, half as long", (calibrate.LOADING, 58000)) for seed in "46"
+               for step in ("fault", "half", "quarter")]
+    longer = [(f"{step}_480_4", "hardly damped, 480, 4", (37300, HALF_STEP_UNTIL)) for step in ("fault", "half")]
+    for name, fault, where in [*runs, *quarter, *longer, *((f"{step}_120_4", "preset slip, 120, 4", slip) for step in ("fault", "half"))]:
         row, = in_window(name, *where)
-        out.append([f"{fault}, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
+        begin, end, folder = *where[:2], where[2] if len(where) > 2 else DAMPING
+        events = catalogues.lsm.read_catalogue(folder / f"{name}.catalogue.csv.xz")
+        starts = events["t_start"][(events["size"] >= 1e-4) & (events["t_start"] >= float(begin)) & (events["t_end"] <= end)]
+        out.append([f"{fault}, {float(row['dt']):g}", *(of(row, key) for key in keys), shown(100 * np.mean(np.diff(starts) < BURST))])
     names = {"k_120_0.6_": "kt 0.6", "d_120_5e-4_0.6_2": "impedance 0.6", "f_120_0.6_2": "impedance 0.6", "position_120_2": "plates in place"}
     names["f_120_position_2"] = "plates in place"
     points = [(next((name for start, name in names.items() if row["point"].startswith(start)), ""), row) for row in read(DAMPING / "points.csv")]
     for name, row in sorted(points, key=lambda one: (one[0], -number(one[1], "dt"))):
         if name and row["memory"] == "1":
-            out.append([f"{name}, 120, {float(row['dt']):g}", row["events_0.0001"], *(of(row, key) for key in keys)])
-    return table(["fault, length, time step", "events", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B"], out)
+            out.append([f"{name}, 120, {float(row['dt']):g}", *(of(row, key) for key in keys), "-"])
+    return table(["fault, length, packing, time step", "one in", "exponent 1e-4 to 0.1", "gamma of all times", "B", "within 0.6 of another, %"], out)
 
 
 def motion_table():
@@ -730,19 +741,16 @@ def others_table():
 
 
 def velocity_table():
-    """Preset slip, packing 4, with plates of the paper's velocity and of half of it: how often there are slips, and other drops."""
+    """Preset slip, packing 4, with plates of the paper's velocity and of half of it: how often there are drops, and those that are slip."""
     out = []
     for length in ("120", "240", "480"):
         for path in SLIP / f"fault_{length}_4.catalogue.csv.xz", SLIP / f"others/slow_{length}_4.catalogue.csv.xz":
             found = catalogues.lsm.read_catalogue(path)
-            size, (excess, _), cells = found["size"], slip_or_exchange.excess_of(found), []
-            for low, high in ((1e-3, 1e-2), (1e-2, 0.1), (0.1, math.inf)):
-                time, share = slip_or_exchange.time_and_share(found, excess, (size >= low) & (size < high))
-                cells += [shown(time / share)] + ([shown(time / (1 - share))] if high < 1 else [])
-            time, share = slip_or_exchange.time_and_share(found, excess, size >= 1e-4)
-            out.append([f"{length}, {float(found.header['velocity']):g}", shown(time), f"{100 * share:.0f}", *cells])
-    head = ["length, velocity", "all: one in", "slip, %", "0.001 to 0.01: one slip in", "one other in", "0.01 to 0.1: one slip in", "one other in"]
-    return table([*head, "above: one slip in"], out)
+            size, (excess, _) = found["size"], slip_or_exchange.excess_of(found)
+            times = [slip_or_exchange.time_and_share(found, excess, size >= low)[0] for low in (1e-4, 2e-3, 1e-2, 0.1)]
+            time, share = slip_or_exchange.time_and_share(found, excess, (size >= 1e-3) & (size < 1e-2))
+            out.append([f"{length}, {float(found.header['velocity']):g}", *(shown(one) for one in (*times, time / share, time / (1 - share)))])
+    return table(["length, velocity", ">= 1e-4", ">= 0.002", ">= 0.01", ">= 0.1", "0.001 to 0.01: slips", "others"], out)
 
 
 def slider_table():
