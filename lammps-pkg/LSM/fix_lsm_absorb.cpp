@@ -88,18 +88,19 @@ template <int DIM> void FixLSMAbsorb::absorb()
     for (const FixLSMNVE *integrator : integrators)
       if (atom->mask[i] & integrator->groupbit)
         decay *= integrator->decay_in_half_step(atom->type[i]);
-    double drag[DIM] = {}, now[DIM];
+    const double reached = update->setupflag ? 1.0 : decay;
+    double drag[DIM] = {}, before[DIM];    // before: velocity of this time but for the decay
     for (const FixLSMAbsorb *border : borders)
       for (int c = 0; c < DIM; c++) drag[c] += border->drag(i, c, mass);
     for (int c = 0; c < DIM; c++) {
-      now[c] = decay * (v[i][c] + kick * f[i][c]) / (1.0 + kick * drag[c] * decay);
-      f[i][c] -= drag[c] * now[c];
+      before[c] = (v[i][c] + kick * f[i][c]) / (1.0 + kick * drag[c] * reached);
+      f[i][c] -= drag[c] * reached * before[c];
     }
     for (FixLSMAbsorb *border : borders) {
       double lost = 0.0;
-      for (int c = 0; c < DIM; c++) lost += border->drag(i, c, mass) * now[c] * now[c];
-      border->work_absorbed += half * lost / decay;
-      border->rate += lost * decay;
+      for (int c = 0; c < DIM; c++) lost += border->drag(i, c, mass) * before[c] * before[c];
+      border->work_absorbed += half * reached * lost;
+      border->rate += reached * reached * decay * lost;
     }
   }
 }
