@@ -708,7 +708,7 @@ def scale_and_time(row):
 
 
 def others_table():
-    """Preset slip with another width, velocity and memory, other sets of values, and those with which contacts let go at once."""
+    """Preset slip, the same with another width, velocity and memory, other sets of values, and those with which contacts let go at once."""
 
     def used(header):
         keys = ("width", "velocity", "stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")
@@ -716,8 +716,8 @@ def others_table():
         texts["memory"] = f"{catalogues.memory_of(header):.3g}"
         return {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in texts.items()}
 
-    paths, preset = sorted(
-        (SLIP / "others").glob("*.catalogue.csv.xz")), used(catalogues.lsm.read_catalogue(SLIP / "fault_120_4.catalogue.csv.xz").header)
+    base = [SLIP / f"fault_{length}_4.catalogue.csv.xz" for length in ("120", "240", "480")]
+    paths, preset = base + sorted((SLIP / "others").glob("*.catalogue.csv.xz")), used(catalogues.lsm.read_catalogue(base[0]).header)
     rows, out = summary.rows_of(POSTPROC, paths, ["1e-4"], ranges=calibrate.RANGES, begin=calibrate.LOADING, shortest=0), []
     for path, row in zip(paths, rows):
         found = catalogues.lsm.read_catalogue(path)
@@ -731,7 +731,7 @@ def others_table():
             f"{key} {value}".replace("kelvin_voigt", "retardation").replace("law coulomb 0.6", "static friction") for key, value in changed.items()
         ]
         out.append((at_once > 0.01, other, float(found.header["length"]), friction, [
-            f"{found.header['length']}, {found.header['seed']}: {', '.join(differs)}",
+            f"{found.header['length']}, {found.header['seed']}: {', '.join(differs) or 'nothing'}",
             shown(friction), f"{100 * at_once:.0f}", f"{shown(number(row, EXPONENTS['1e-4 to 1e-1']))} ({decades_of(row)})",
             shown(number(row, "gamma_0.0001")),
             scale_and_time(row)
