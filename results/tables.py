@@ -73,9 +73,10 @@ def faults(kind="catalogue", folder=CAMPAIGN):
     return dict(sorted(groups.items()))
 
 
-def loaded(width):
-    """Time from which catalogues count: wider blocks are loaded later."""
-    return calibrate.LOADING * width / 30
+@functools.cache
+def loaded(path):
+    """Time from which a catalogue counts: wider blocks are loaded later."""
+    return calibrate.LOADING * float(catalogues.lsm.read_catalogue(path).header["width"]) / 30
 
 
 @functools.cache
@@ -83,8 +84,8 @@ def summaries(folder=CAMPAIGN):
     """A row of summary.py for each catalogue, with the numbers of statements.py if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     rows = []
-    for width, some in itertools.groupby(paths, lambda path: float(catalogues.lsm.read_catalogue(path).header["width"])):
-        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=loaded(width),
+    for begin, some in itertools.groupby(paths, loaded):
+        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=begin,
                                 parameters=("length", "seed", "width", "dt", "lambda", "mass"))
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
@@ -217,8 +218,7 @@ def scaling_of(kind, least, folder=CAMPAIGN):
     paths = [path for some in groups.values() for path in some]
     fits = numbers_of("fit", *paths, "--threshold", least, "--from", LOADING, "--range", f"{least}:1", "--replicas", 0, "--no-comparison",
                       "--no-picture")["fits"]
-    found, = scaling.scalings([scaling.load(path, loaded(float(catalogues.lsm.read_catalogue(path).header["width"]))) for path in paths],
-                              float(least))
+    found, = scaling.scalings([scaling.load(path, loaded(path)) for path in paths], float(least))
     each = iter(zip(fits, found.points))
     return {length: [next(each) for _ in some] for length, some in groups.items()}, found.fit
 
@@ -340,7 +340,7 @@ def widths_table():
             header = catalogues.lsm.read_catalogue(path).header
             length, width = float(header["length"]), float(header["width"])
             if header["dt"] == "0.12":
-                events = catalogues.events_of(path, loaded(width))
+                events = catalogues.events_of(path, loaded(path))
                 events = events[events["size"] >= 1e-2]
                 size, whole = events["size"], events["rupture_length"] >= length
                 numbers = len(size), np.sum(size**2) / np.sum(size), np.sum(whole), 100 * np.sum(size[whole]**2) / np.sum(size**2)
@@ -381,6 +381,11 @@ def stretches_table():
 # ---- damping
 
 
+def apart(starts):
+    """Of each event but the first, whether it does not follow at once."""
+    return np.diff(starts) >= BURST
+
+
 @functools.cache
 def of_all_times(folder):
     """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
@@ -389,9 +394,8 @@ def of_all_times(folder):
     rows = []
     for path, row, one in zip(paths, summaries(folder), all_times):
         starts = [number(event, "t_start") for event in read(path)]
-        apart = 1 + sum(later - start >= BURST for start, later in zip(starts, starts[1:]))
         own = {key: one[key] for key in ("gamma_0.0001", "gamma_error_0.0001", "B_0.0001")}
-        rows.append({**row, **own, "gamma_longer": row["gamma_0.0001"], "apart": str((starts[-1] - starts[0]) / apart)})
+        rows.append({**row, **own, "gamma_longer": row["gamma_0.0001"], "apart": str((starts[-1] - starts[0]) / (1 + apart(starts).sum()))})
     return rows
 
 
@@ -500,18 +504,19 @@ def in_window(name, begin, end, folder=DAMPING):
 
 def half_step_table():
     """The same with shorter time steps, in the same time; at length 480 of the hardly damped fault from the same state on."""
-    out, whole, slip = [], (calibrate.LOADING, 108000), (calibrate.LOADING, 15000, SLIP)
+    out, whole, half = [], (calibrate.LOADING, 108000, DAMPING), (calibrate.LOADING, 58000, DAMPING)
     keys = "mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"
     runs = [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}", whole) for seed in "456" for step in ("fault", "half")]
-    quarter = [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}, half as long", (calibrate.LOADING, 58000)) for seed in "46"
-               for step in ("fault", "half", "quarter")]
-    longer = [(f"{step}_480_4", "hardly damped, 480, 4", (37300, HALF_STEP_UNTIL)) for step in ("fault", "half")]
-    for name, fault, where in [*runs, *quarter, *longer, *((f"{step}_120_4", "preset slip, 120, 4", slip) for step in ("fault", "half"))]:
-        row, = in_window(name, *where)
-        begin, end, folder = *where[:2], where[2] if len(where) > 2 else DAMPING
+    runs += [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}, half as long", half) for seed in "46" for step in ("fault", "half", "quarter")]
+    for step in "fault", "half":
+        runs.append((f"{step}_480_4", "hardly damped, 480, 4", (37300, HALF_STEP_UNTIL, DAMPING)))
+    for step in "fault", "half":
+        runs.append((f"{step}_120_4", "preset slip, 120, 4", (calibrate.LOADING, 15000, SLIP)))
+    for name, fault, (begin, end, folder) in runs:
+        row, = in_window(name, begin, end, folder)
         events = catalogues.lsm.read_catalogue(folder / f"{name}.catalogue.csv.xz")
-        starts = events["t_start"][(events["size"] >= 1e-4) & (events["t_start"] >= float(begin)) & (events["t_end"] <= end)]
-        out.append([f"{fault}, {float(row['dt']):g}", *(of(row, key) for key in keys), shown(100 * np.mean(np.diff(starts) < BURST))])
+        starts = events["t_start"][(events["size"] >= 1e-4) & (events["t_start"] >= begin) & (events["t_end"] <= end)]
+        out.append([f"{fault}, {float(row['dt']):g}", *(of(row, key) for key in keys), shown(100 * np.mean(~apart(starts)))])
     names = {"k_120_0.6_": "kt 0.6", "d_120_5e-4_0.6_2": "impedance 0.6", "f_120_0.6_2": "impedance 0.6", "position_120_2": "plates in place"}
     names["f_120_position_2"] = "plates in place"
     points = [(next((name for start, name in names.items() if row["point"].startswith(start)), ""), row) for row in read(DAMPING / "points.csv")]

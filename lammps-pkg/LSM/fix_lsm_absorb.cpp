@@ -2,6 +2,7 @@
 
 #include "fix_lsm_absorb.h"
 
+#include "atom.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_lsm_nve.h"
@@ -67,6 +68,13 @@ void FixLSMAbsorb::init()
 void FixLSMAbsorb::post_force(int /*vflag*/)
 {
   if (this == borders.back()) domain->dimension == 3 ? absorb<3>() : absorb<2>();
+}
+
+// force over velocity of a particle along an axis; 0 outside of the group
+inline double FixLSMAbsorb::drag(int i, int c, double mass) const
+{
+  if (!(atom->mask[i] & groupbit)) return 0.0;
+  return of_mass ? dashpot[c] * mass : dashpot[c];
 }
 
 template <int DIM> void FixLSMAbsorb::absorb()

@@ -10,7 +10,6 @@ FixStyle(lsm/absorb,FixLSMAbsorb);
 #ifndef LMP_FIX_LSM_ABSORB_H
 #define LMP_FIX_LSM_ABSORB_H
 
-#include "atom.h"
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
 
@@ -37,12 +36,7 @@ class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
   std::vector<FixLSMAbsorb *> borders;    // all fixes of this style, and all that integrate
   std::vector<class FixLSMNVE *> integrators;
 
-  /// Force over velocity of a particle along an axis; 0 outside of the group.
-  double drag(int i, int c, double mass) const
-  {
-    if (!(atom->mask[i] & groupbit)) return 0.0;
-    return of_mass ? dashpot[c] * mass : dashpot[c];
-  }
+  double drag(int i, int c, double mass) const;
   template <int DIM> void absorb();
 };
 

@@ -96,22 +96,20 @@ def read_catalogue(path, lenient=False):
     identity = next((k for k, column in enumerate(shown) if names[column] == "event_id"), None)
     rows = []
     for number, line in enumerate(lines[first + 1:], first + 2):
-        fields = line.split(",")
+        fields, wrong = line.split(","), ""
         try:
             if len(fields) != len(names):
                 raise ValueError
             row = tuple(kinds[k](fields[k]) for k in shown)
             if not all(math.isfinite(row[k]) for k in finite):
                 raise ValueError
+            if identity is not None and rows and row[identity] <= rows[-1][identity]:
+                wrong = f"event_id {row[identity]} after {rows[-1][identity]}, expected increasing event_id"
+                raise ValueError
+            rows.append(row)
         except (ValueError, OverflowError):
             if not lenient:
-                raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
-            continue
-        if identity is not None and rows and row[identity] <= rows[-1][identity]:
-            if not lenient:
-                raise ValueError(f"{path}:{number}: event_id {row[identity]} after {rows[-1][identity]}, expected increasing event_id")
-            continue
-        rows.append(row)
+                raise ValueError(f"{path}:{number}: " + (wrong or f"'{line}', expected {len(names)} numbers")) from None
     return Table(np.array(rows, [(names[k], kinds[k]) for k in shown]), _parameters(lines[:first]))
 
 
