@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "densities.h"
 #include "numbers.h"
 #include "packed_numbers.h"
 #include "page.h"
