@@ -6,8 +6,9 @@ tables.py POSTPROC            says which tables are not what the data give; exit
 tables.py POSTPROC --write    writes them into the pages
 tables.py POSTPROC --csv      says which numbers of the CSV files that the published catalogues give are others, likewise
 
-A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md. Statistics
-are those of postproc; here are means over packings. A study whose data are not in this folder has a line in place of its table.
+A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md, and numbers
+of sentences before <!--n KEY-->, see values.py. Statistics are those of postproc; here are means over packings. A study whose data are
+not in this folder has a line in place of its table.
 """
 import cmath
 import difflib
@@ -27,12 +28,14 @@ FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / "inputs/studies"), str(FOLDER / "speed")]
 import calibrate  # noqa: E402
 import catalogues  # noqa: E402
+import faults as article  # noqa: E402
 import nature  # noqa: E402
 import periods  # noqa: E402
 import slip_or_exchange  # noqa: E402
 import speed_tables  # noqa: E402
 import statements  # noqa: E402
 import summary  # noqa: E402
+import values  # noqa: E402
 import walk  # noqa: E402
 from calibrate import number, read  # noqa: E402
 from lsm import scaling  # noqa: E402
@@ -944,7 +947,7 @@ TABLES |= {name: lambda name=name: table(*walk.table(shown, name)) for name in w
 
 
 def check(write):
-    wrong = 0
+    wrong, keyed = 0, values.read()
     for page in sorted(FOLDER.glob("*.md")) + [FOLDER.parent / "README.md"]:
         text = page.read_text()
 
@@ -958,6 +961,10 @@ def check(write):
             return f"<!-- table {match[1]} -->\n\n{made}\n\n<!-- end -->"
 
         new = re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, text, flags=re.S)
+        try:
+            new = values.filled(new, keyed)
+        except ValueError as error:
+            sys.exit(f"{page.name}: {error}")
         if write:
             page.write_text(new)
         elif new != text:
@@ -983,9 +990,10 @@ def differing(path, rows, there=None, least=1e-6):
 
 
 def check_csv():
-    """Files of nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
+    """The numbers of sentences, files of nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
+    wrong = [differing(values.TABLE, values.rows(article.all_values()))]
     rows = nature.published(POSTPROC)
-    wrong = [
+    wrong += [
         differing(FOLDER / f"nature{ending}.csv", made)
         for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)), (".table1", nature.table1(rows)))
     ]
