@@ -35,7 +35,7 @@ done
 [[ -z $hours || ${#where[@]} = 0 ]] || LSM_UNTIL=$(awk -v now="$(date +%s)" -v h="$hours" 'BEGIN { printf "%.0f", now + 3600 * h }')
 export LSM_UNTIL
 . "$root/lammps-pkg/cmake/debian-packages.sh"
-command -v snakemake >/dev/null || install_debian_packages snakemake
+command -v snakemake >/dev/null || install_debian_packages snakemake python3-numpy
 [ -n "${LSM_BIN:-}" ] || build_programs "$root" "$build" lmp slider_cli postproc
 output=${LSM_OUTPUT:-$build/studies/$(basename "$table" .csv)}
 [[ $root$table$output${LSM_BIN:-} != *$'\n'* ]] || refuse "a folder or a table has a line break in its name, expected none"

@@ -6,7 +6,7 @@ faults.py                  writes values.csv, the CSV files of the published cat
 
 Leaky: soft contacts, and plates that let part of the waves out. Reflecting: plates that reflect, hardly any damping. Absorbing:
 blocks that take up waves. All rates are of 1000 time units; errors are standard errors over packings, of one packing those of ten
-parts of its time. A drop counts as slip if its excess (slip_or_exchange.py) is above 0.5.
+parts of its time. A drop counts as slip if its excess (lsm.slip) is above 0.5.
 """
 import functools
 import math
@@ -16,12 +16,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import slip_or_exchange
-import values
-from catalogues import LOADING, draw, lsm, mean_and_error, write_table
-from values import Value
 
 FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent / "python"))
+import lsm  # noqa: E402
+import values  # noqa: E402
+from lsm import LOADING, slip  # noqa: E402
+from lsm.analysis import mean_and_error  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.tables import write_table  # noqa: E402
+from values import Value  # noqa: E402
+
 LENGTHS = (120, 240, 480, 945, 1440, 1890)
 SIZES = (1e-4, 1e-3, 1e-2, 1e-1)
 PARTS = 10  # of the time of a run, for errors of single packings
@@ -87,7 +92,7 @@ def over(runs, measure):
 
 @functools.cache
 def excess_of(path):
-    return slip_or_exchange.excess_of(loaded(path))[0]
+    return slip.excess_of(loaded(path))[0]
 
 
 def drops(run, least):
@@ -95,7 +100,7 @@ def drops(run, least):
 
 
 def slips(run, least):
-    return rate_of(run, (run.events["size"] >= least) & (excess_of(run.path) > slip_or_exchange.SLIP))
+    return rate_of(run, (run.events["size"] >= least) & (excess_of(run.path) > slip.SLIP))
 
 
 def sources(runs):

@@ -11,9 +11,15 @@ studies slow-driving and whole-job.
 """
 import argparse
 import math
+import sys
+from pathlib import Path
 
 import numpy as np
-from catalogues import events_of, run, write_json
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from lsm.analysis import events_of  # noqa: E402
+from lsm.program import run  # noqa: E402
+from lsm.tables import write_json  # noqa: E402
 
 SHIFTS = 7
 

@@ -17,19 +17,28 @@ label with their standard errors; those of one catalogue have its own errors.
 """
 import argparse
 import csv
+import datetime
 import functools
 import lzma
 import math
+import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
-from catalogues import CALIFORNIA, LOADING, PERIOD, distance, distance_of_counts, draw, earthquakes, events_of, mean_and_error, numbers_of, over_mean, run
-from catalogues import write_json, write_table
-from lsm.scaling import block_length
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from lsm import LOADING  # noqa: E402
+from lsm.analysis import distance, distance_of_counts, events_of, mean_and_error, numbers_of, over_mean  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.program import run  # noqa: E402
+from lsm.scaling import block_length  # noqa: E402
+from lsm.tables import read, write_json, write_table  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 NATURE = "Southern California"
+CALIFORNIA = HERE.parent / "inputs/seismicity/southern-california.csv.xz"
+PERIOD = ("1984-01-01", "1986-07-02T12:00")  # of the paper's Table 1: 1984.0 to 1986.5
 MAGNITUDES, SIZES = (2.0, 2.5, 3.0), ("1e-4", "1e-3", "1e-2", "1")
 FEWEST = 50  # events of a catalogue that is used
 LARGE = 0.02  # share of the events that count as large
@@ -44,6 +53,19 @@ CATALOGUES += [(f"slider {text}", f"walk/{name}-512_{{}}.catalogue", 5)
 CATALOGUES += [(f"fault 120 {name}", f"walk/fault-{name}_{{}}.catalogue", 5) for name in ("viscous", "weakening")]
 SUMS = {"3 faults 480 apart": (480, 3), "2 faults 945 apart": (945, 2)}  # of independent faults, as long together as those of 1440 and 1890
 MODELS = {label: [HERE / f"{name.format(n + 1)}.csv.xz" for n in range(many)] for label, name, many in CATALOGUES}
+
+
+def earthquakes():
+    """Times (days) and magnitudes of Southern California in PERIOD, in order of time."""
+    found = []
+    for row in read(CALIFORNIA):
+        if PERIOD[0] <= row["time"] < PERIOD[1]:
+            day, clock = row["time"].rstrip("Z").split("T")
+            hours, minutes, seconds = map(float, clock.split(":"))  # the catalogue has seconds of 60
+            seconds += 3600 * hours + 60 * minutes
+            found.append((datetime.date.fromisoformat(day).toordinal() + seconds / 86400, float(row["mag"])))
+    return np.array(sorted(found, key=lambda one: one[0])).T  # in the order of the file where times are equal
+
 
 # ---- error of a distance
 

@@ -10,9 +10,14 @@ phases (Rayleigh's test of directions, Mardia & Jupp 2000). p: share of random p
 import argparse
 import itertools
 import math
+import sys
+from pathlib import Path
 
 import numpy as np
-from catalogues import events_of, run
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from lsm.analysis import events_of  # noqa: E402
+from lsm.program import run  # noqa: E402
 
 FEWEST = 10
 

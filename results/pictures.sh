@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd .. && pwd)
 postproc=${POSTPROC:-$root/build/bin/postproc} lmp=${LMP:-$root/build/bin/lmp}
-loading=$(sed -n "s/^LOADING = \([0-9]*\).*/\1/p" "$root/inputs/studies/calibrate.py") # as in the tables
+loading=$(sed -n "s/^LOADING = \([0-9]*\).*/\1/p" "$root/python/lsm/__init__.py") # as in the tables
 [ $# -gt 0 ] || set -- catalogues run studies report
 new=$(mktemp -d)
 trap 'rm -rf "$new"' EXIT

@@ -15,11 +15,18 @@ import argparse
 import csv
 import math
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
-from catalogues import draw, lsm, numbers_in, run, write_json, write_table
-from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, same_place, summary, tick
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+import lsm  # noqa: E402
+from lsm.analysis import numbers_in  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.program import run  # noqa: E402
+from lsm.tables import write_json, write_table  # noqa: E402
+from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, same_place, summary, tick  # noqa: E402
 
 COLUMNS = ["x", "z", "t", "slip", "slip_rate", "slip_dip"]
 SHOWN = [(0, -7500), (4500, -7500), (-12000, -7500), (4500, 0), (12000, 0)]  # those of TPV5 that differ most from each other

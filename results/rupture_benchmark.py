@@ -11,10 +11,17 @@ convergence; writes BASE-stations.csv, BASE.csv (curves and fronts) and their pi
 import argparse
 import csv
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
-from catalogues import draw, lsm, numbers_in, run, write_table
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+import lsm  # noqa: E402
+from lsm.analysis import numbers_in  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.program import run  # noqa: E402
+from lsm.tables import write_table  # noqa: E402
 
 ARRIVED = 1.0  # slip rate above which the rupture has arrived, in the units of the references
 COLUMNS = ["curve", "x", "t", "slip", "slip_rate"]

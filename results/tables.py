@@ -25,20 +25,18 @@ from pathlib import Path
 import numpy as np
 
 FOLDER = Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER.parent / "inputs/studies"), str(FOLDER / "speed")]
-import calibrate  # noqa: E402
-import catalogues  # noqa: E402
+sys.path[:0] = [str(FOLDER.parent / "python"), str(FOLDER.parent / "inputs"), str(FOLDER / "speed")]
 import faults as article  # noqa: E402
+import lsm  # noqa: E402
 import nature  # noqa: E402
 import periods  # noqa: E402
 import slip_or_exchange  # noqa: E402
 import speed_tables  # noqa: E402
-import statements  # noqa: E402
-import summary  # noqa: E402
 import values  # noqa: E402
 import walk  # noqa: E402
-from calibrate import number, read  # noqa: E402
-from lsm import scaling  # noqa: E402
+from lsm import LOADING, analysis, paper, scaling, slip, statements, summary  # noqa: E402
+from lsm.tables import memory_of, number, read, text_of  # noqa: E402
+from variables import defaults  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
@@ -46,11 +44,10 @@ DEFAULT = FOLDER / "calibration/default.csv.xz"  # points from which the default
 CAMPAIGN, VALIDATION, DAMPING, SLIP, RECIPES = (FOLDER / name for name in ("campaign", "validation", "damping", "slip", "packing"))
 PRESETS = {"default": CAMPAIGN, "preset paper": DAMPING, "preset slip": SLIP}
 JUDGED = {folder: slip_or_exchange.FAULTS[folder.name] for folder in (DAMPING, SLIP)}  # events of which are said to be slip or not
-LOADING = str(calibrate.LOADING)
 HALF_STEP_UNTIL = 57800  # of the run at length 480 with half the time step
 BURST = 0.6  # events that follow another faster are those of short waves
 SIZES = ("1e-4", "1e-3", "1e-2")
-EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
+EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in paper.RANGES}
 
 # ---- numbers of postproc
 
@@ -58,7 +55,7 @@ EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate
 @functools.cache
 def numbers_of(command, *words):
     """The numbers (JSON) that a command of postproc finds."""
-    return catalogues.numbers_of(POSTPROC, command, *words)
+    return analysis.numbers_of(POSTPROC, command, *words)
 
 
 def grouped(rows, key):
@@ -79,22 +76,22 @@ def faults(kind="catalogue", folder=CAMPAIGN):
 @functools.cache
 def loaded(path):
     """Time from which a catalogue counts: wider blocks are loaded later."""
-    return calibrate.LOADING * float(catalogues.lsm.read_catalogue(path).header["width"]) / 30
+    return LOADING * float(lsm.read_catalogue(path).header["width"]) / 30
 
 
 @functools.cache
 def summaries(folder=CAMPAIGN):
-    """A row of summary.py for each catalogue, with the numbers of statements.py if these were measured."""
+    """A row of lsm.summary for each catalogue, with the numbers of lsm.statements if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     rows = []
     for begin, some in itertools.groupby(paths, loaded):
-        rows += summary.rows_of(POSTPROC, list(some), ranges=calibrate.RANGES, windows=calibrate.WINDOWS, begin=begin,
+        rows += summary.rows_of(POSTPROC, list(some), ranges=paper.RANGES, windows=paper.WINDOWS, begin=begin,
                                 parameters=("length", "seed", "width", "dt", "lambda", "mass"))
     for row in read(folder / "statements.csv") if (folder / "statements.csv").exists() else []:
         worded.setdefault(row["run"], {})[row["number"]] = row["value"]
     for path, row in zip(paths, rows):
-        row["memory"] = str(catalogues.memory_of(row))
-        row |= {key: worded.get(path.name.split(".")[0], {}).get(text, "") for key, text in calibrate.WORDED.items()}
+        row["memory"] = str(memory_of(row))
+        row |= {key: worded.get(path.name.split(".")[0], {}).get(text, "") for key, text in paper.WORDED.items()}
     return rows
 
 
@@ -191,7 +188,7 @@ def paper_table():
         groups |= {(name, length): rows[length] for length in (("120",) if name == "default" else ("120", "480"))}
     shares = [spread(slip.get(key, {}).values()) for key in groups]
     out = [["share of events of 0.001 to 0.1 that are slip, beyond chance †", *shares]]
-    out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in calibrate.STATEMENTS]
+    out += [[f"{one.text} ({tolerance_of(one)})", *(judged(rows, one) for rows in groups.values())] for one in paper.STATEMENTS]
     return table(["statement of the paper, or † (tolerance)", *map(", ".join, groups)],
                  [row for row in out if set(row[1:]) != {"-"}] + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
@@ -272,8 +269,8 @@ def ruptures_table():
     paths, out = faults("ruptures"), []
     for length, some in scaling_of("ruptures", "1e-2")[0].items():
         for path, (fit, point) in zip(paths[length], some):
-            rows = [row for row in read(path) if number(row, "t_start") >= calibrate.LOADING and number(row, "size") >= 1e-2]
-            time, lengths = max(number(row, "t_end") for row in rows) - calibrate.LOADING, [number(row, "rupture_length") for row in rows]
+            rows = [row for row in read(path) if number(row, "t_start") >= LOADING and number(row, "size") >= 1e-2]
+            time, lengths = max(number(row, "t_end") for row in rows) - LOADING, [number(row, "rupture_length") for row in rows]
             frequent = sum(x > 10 for x in lengths) / time / length * 1e5
             whole = sum(x >= length for x in lengths)
             numbers = shown(fit["exponent"], fit["standard_error"]), shown(point.s_star, point.error)
@@ -300,7 +297,7 @@ def same_times_table():
 
 
 def worded_table(kept):
-    """Numbers of statements.py whose names begin so, over the packings of each length."""
+    """Numbers of lsm.statements whose names begin so, over the packings of each length."""
     rows = [row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)]
     columns = grouped(rows, lambda row: row["number"])
     lengths = [length for length in faults() if any(row["length"] == str(length) for row in rows)]
@@ -340,10 +337,10 @@ def widths_table():
     found = {}
     for folder in CAMPAIGN, VALIDATION:
         for path in (path for length, paths in faults("ruptures", folder).items() if length <= 480 for path in paths):
-            header = catalogues.lsm.read_catalogue(path).header
+            header = lsm.read_catalogue(path).header
             length, width = float(header["length"]), float(header["width"])
             if header["dt"] == "0.12":
-                events = catalogues.events_of(path, loaded(path))
+                events = analysis.events_of(path, loaded(path))
                 events = events[events["size"] >= 1e-2]
                 size, whole = events["size"], events["rupture_length"] >= length
                 numbers = len(size), np.sum(size**2) / np.sum(size), np.sum(whole), 100 * np.sum(size[whole]**2) / np.sum(size**2)
@@ -393,7 +390,7 @@ def apart(starts):
 def of_all_times(folder):
     """summaries() with gamma and B of all inter-event times, as in the calibration, and the mean time without events that follow at once."""
     paths = [path for some in faults(folder=folder).values() for path in some]
-    all_times = summary.rows_of(POSTPROC, paths, ["1e-4"], begin=calibrate.LOADING, shortest=0)
+    all_times = summary.rows_of(POSTPROC, paths, ["1e-4"], begin=LOADING, shortest=0)
     rows = []
     for path, row, one in zip(paths, summaries(folder), all_times):
         starts = [number(event, "t_start") for event in read(path)]
@@ -448,10 +445,10 @@ def slip_rates_table():
 
 def wandering_table():
     """Numbers of consecutive stretches, each as long as a run of the calibration."""
-    out, long = [], calibrate.STEPS * 0.12 - calibrate.LOADING
+    out, long = [], paper.STEPS * 0.12 - LOADING
     for folder, name in JUDGED.items():
         for length, path in ((length, path) for length, paths in faults(folder=folder).items() for path in paths):
-            ends = np.arange(calibrate.LOADING + long, max(number(row, "t_end") for row in read(path)), long)
+            ends = np.arange(LOADING + long, max(number(row, "t_end") for row in read(path)), long)
             if len(ends) < 2:
                 continue
             rows = [summary.rows_of(POSTPROC, [path], ["1e-4"], ["1e-4:1e-1"], begin=end - long, end=end, shortest=0)[0] for end in ends]
@@ -476,8 +473,8 @@ def short_waves_table():
     rows = [row for row in read(DAMPING / "points.csv") if row["point"].startswith("t_") and row["memory"] == "1" and row["retardation"] != "0"]
     without = []
     for length, some in grouped(rows, lambda row: row["length"]).items():
-        end = calibrate.LOADING + statistics.median(number(row, "time") for row in some)
-        without += in_window(f"fault_{length}_4", calibrate.LOADING, end)
+        end = LOADING + statistics.median(number(row, "time") for row in some)
+        without += in_window(f"fault_{length}_4", LOADING, end)
     without = [{**row, "retardation": "0"} for row in without]
     columns = {"length, retardation": lambda row: f"{row['length']}, {float(row['retardation']):g}", "one event in": "mean_time_0.0001"}
     columns |= {"exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"], "gamma of all times": "gamma_0.0001", "B": "B_0.0001"}
@@ -507,17 +504,17 @@ def in_window(name, begin, end, folder=DAMPING):
 
 def half_step_table():
     """The same with shorter time steps, in the same time; at length 480 of the hardly damped fault from the same state on."""
-    out, whole, half = [], (calibrate.LOADING, 108000, DAMPING), (calibrate.LOADING, 58000, DAMPING)
+    out, whole, half = [], (LOADING, 108000, DAMPING), (LOADING, 58000, DAMPING)
     keys = "mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001"
     runs = [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}", whole) for seed in "456" for step in ("fault", "half")]
     runs += [(f"{step}_120_{seed}", f"hardly damped, 120, {seed}, half as long", half) for seed in "46" for step in ("fault", "half", "quarter")]
     for step in "fault", "half":
         runs.append((f"{step}_480_4", "hardly damped, 480, 4", (37300, HALF_STEP_UNTIL, DAMPING)))
     for step in "fault", "half":
-        runs.append((f"{step}_120_4", "preset slip, 120, 4", (calibrate.LOADING, 15000, SLIP)))
+        runs.append((f"{step}_120_4", "preset slip, 120, 4", (LOADING, 15000, SLIP)))
     for name, fault, (begin, end, folder) in runs:
         row, = in_window(name, begin, end, folder)
-        events = catalogues.lsm.read_catalogue(folder / f"{name}.catalogue.csv.xz")
+        events = lsm.read_catalogue(folder / f"{name}.catalogue.csv.xz")
         starts = events["t_start"][(events["size"] >= 1e-4) & (events["t_start"] >= begin) & (events["t_end"] <= end)]
         out.append([f"{fault}, {float(row['dt']):g}", *(of(row, key) for key in keys), shown(100 * np.mean(~apart(starts)))])
     names = {"k_120_0.6_": "kt 0.6", "d_120_5e-4_0.6_2": "impedance 0.6", "f_120_0.6_2": "impedance 0.6", "position_120_2": "plates in place"}
@@ -585,11 +582,11 @@ def quality_table():
 
 def crossing_table():
     """Events that begin while waves of an earlier, larger one cross the blocks."""
-    out, crossing = [], 30 / calibrate.WAVE_SPEED["r2"]
+    out, crossing = [], 30 / paper.WAVE_SPEED["r2"]
     for name, folder, packing in (("hardly damped", DAMPING, "4"), ("preset slip", SLIP, "4"), ("damped, plates absorb", CAMPAIGN, "1")):
         for length in ("120", "240", "480", "945", "1890"):
-            found = catalogues.lsm.read_catalogue(folder / f"fault_{length}_{packing}.catalogue.csv.xz")
-            found = found[(found["size"] >= 1e-4) & (found["t_start"] >= calibrate.LOADING)]
+            found = lsm.read_catalogue(folder / f"fault_{length}_{packing}.catalogue.csv.xz")
+            found = found[(found["size"] >= 1e-4) & (found["t_start"] >= LOADING)]
             ends, span = found["t_end"][found["size"] >= 1e-2], found["t_end"][-1] - found["t_start"][0]
             after = ends.searchsorted(found["t_start"], "right")
             near = sum(bool(k) and start - ends[k - 1] < crossing for k, start in zip(after, found["t_start"]))
@@ -629,9 +626,9 @@ def apart_table():
         with tempfile.TemporaryDirectory() as work:
             paths = [Path(work, kind) for kind in ("slip.csv", "others.csv")]
             for path, kind in zip(paths, (">", "<=")):
-                command = [POSTPROC, "select", folder / f"fault_{length}_4.catalogue.csv.xz", "--where", f"excess {kind} {slip_or_exchange.SLIP}"]
+                command = [POSTPROC, "select", folder / f"fault_{length}_4.catalogue.csv.xz", "--where", f"excess {kind} {slip.SLIP}"]
                 subprocess.run([*command, "-o", path], check=True, stdout=subprocess.DEVNULL)
-            rows = summary.rows_of(POSTPROC, paths, ["1e-4"], calibrate.RANGES[:1], begin=calibrate.LOADING, shortest=0)
+            rows = summary.rows_of(POSTPROC, paths, ["1e-4"], paper.RANGES[:1], begin=LOADING, shortest=0)
         cells = [", ".join(shown(number(row, key)) for key in ("mean_time_0.0001", EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001")) for row in rows]
         out.append([f"{name}, {length}, 4", *cells])
     return table(["one in, exponent, gamma", "events that count as slip", "the others"], out)
@@ -663,7 +660,7 @@ def switched_table():
 
 def statements_table():
     """What points of the calibration and samples of its posterior meet."""
-    found, rows = {row["statement"]: row for row in read(FOLDER / "calibration.statements.csv")}, calibrate.completed(POINTS)
+    found, rows = {row["statement"]: row for row in read(FOLDER / "calibration.statements.csv")}, paper.completed(POINTS)
 
     def shares(row, length):
         return f"{100 * number(row, f'prior_{length}'):.0f}, {100 * number(row, f'posterior_{length}'):.0f}" if row.get(f"prior_{length}") else "-"
@@ -672,7 +669,7 @@ def statements_table():
         return len({row["point"] for row in rows if one.deviation(row) <= 1})
 
     out = [[one.text, tolerance_of(one),
-            str(points(one)), *(shares(found[one.name], length) for length in ("120", "480"))] for one in calibrate.STATEMENTS]
+            str(points(one)), *(shares(found[one.name], length) for length in ("120", "480"))] for one in paper.STATEMENTS]
     head = ["fitted, but for †", "tolerance", f"of {len({row['point'] for row in rows})} points", "% of prior, posterior at 120", "at 480"]
     stopped = sum(row["stopped"] == "yes" for row in read(POINTS))
     return table(head, out) + (f"\n\nMore that stopped, as a link was strained by half its length: {stopped}." if stopped else "")
@@ -681,15 +678,15 @@ def statements_table():
 def surrogate_table():
     """Error of the surrogate at points that it was not given, beside what these differ by."""
     rows = [row for row in read(FOLDER / "calibration.statements.csv") if row["left_out"]]
-    units = {name: "ln of it" if one.log else "" for name, one in calibrate.STATEMENTS_BY_NAME.items()}
+    units = {name: "ln of it" if one.log else "" for name, one in paper.STATEMENTS_BY_NAME.items()}
     return table(["number", "left out", "standard deviation of the points"],
                  [[", ".join(filter(None, (row["statement"], units[row["statement"]]))), row["left_out"], row["spread"]] for row in rows])
 
 
 def nearest_table():
     """The points nearest to what is printed, at each length."""
-    rows, out = calibrate.nearest(calibrate.completed(POINTS)), []
-    values, silent = calibrate.STATEMENTS_BY_NAME, calibrate.defaults()
+    rows, out = paper.nearest(paper.completed(POINTS)), []
+    values, silent = paper.STATEMENTS_BY_NAME, defaults()
 
     def text(row, *names):
         return ", ".join(shown(values[name].value(row)) for name in names)
@@ -705,7 +702,7 @@ def nearest_table():
             text(row, "exponent", "decades"),
             text(row, "gamma", "B"),
             text(row, "slip"),
-            shown(calibrate.distance(row))
+            shown(paper.distance(row))
         ])
     return table(["fitted: point, length", "values", "exponent, rms of decades", "gamma, B", "excess †", "distance"], out)
 
@@ -721,18 +718,18 @@ def others_table():
     def used(header):
         keys = ("width", "velocity", "stress", "viscosity", "kt", "law", "kelvin_voigt", "impedance", "loose")
         texts = {key: header.get(key, "0") for key in keys}
-        texts["memory"] = f"{catalogues.memory_of(header):.3g}"
+        texts["memory"] = f"{memory_of(header):.3g}"
         return {key: f"{float(text):g}" if text.replace(".", "").isdigit() else text for key, text in texts.items()}
 
     base = [SLIP / f"fault_{length}_4.catalogue.csv.xz" for length in ("120", "240", "480")]
-    paths, preset = base + sorted((SLIP / "others").glob("*.catalogue.csv.xz")), used(catalogues.lsm.read_catalogue(base[0]).header)
-    rows, out = summary.rows_of(POSTPROC, paths, ["1e-4"], ranges=calibrate.RANGES, begin=calibrate.LOADING, shortest=0), []
+    paths, preset = base + sorted((SLIP / "others").glob("*.catalogue.csv.xz")), used(lsm.read_catalogue(base[0]).header)
+    rows, out = summary.rows_of(POSTPROC, paths, ["1e-4"], ranges=paper.RANGES, begin=LOADING, shortest=0), []
     for path, row in zip(paths, rows):
-        found = catalogues.lsm.read_catalogue(path)
-        size, (excess, loaded) = found["size"], slip_or_exchange.excess_of(found)
+        found = lsm.read_catalogue(path)
+        size, (excess, loaded) = found["size"], slip.excess_of(found)
         small, middle = (size >= 1e-3) & (size < 0.1), (size >= 1e-3) & (size < 1e-2)
-        friction = slip_or_exchange.friction_share(size[small], excess[small], loaded[small])
-        at_once = np.mean(found["jump"][middle] > slip_or_exchange.AT_ONCE)
+        friction = slip.friction_share(size[small], excess[small], loaded[small])
+        at_once = np.mean(found["jump"][middle] > slip.AT_ONCE)
         changed = {key: value for key, value in used(found.header).items() if value != preset[key]}
         other = not changed.keys() <= {"width", "velocity", "memory"}
         differs = [
@@ -753,19 +750,19 @@ def velocity_table():
     out = []
     for length in ("120", "240", "480"):
         for path in SLIP / f"fault_{length}_4.catalogue.csv.xz", SLIP / f"others/slow_{length}_4.catalogue.csv.xz":
-            found = catalogues.lsm.read_catalogue(path)
-            size, (excess, _) = found["size"], slip_or_exchange.excess_of(found)
-            times = [slip_or_exchange.time_and_share(found, excess, size >= low)[0] for low in (1e-4, 2e-3, 1e-2, 0.1)]
-            time, share = slip_or_exchange.time_and_share(found, excess, (size >= 1e-3) & (size < 1e-2))
+            found = lsm.read_catalogue(path)
+            size, (excess, _) = found["size"], slip.excess_of(found)
+            times = [slip.time_and_share(found, excess, size >= low)[0] for low in (1e-4, 2e-3, 1e-2, 0.1)]
+            time, share = slip.time_and_share(found, excess, (size >= 1e-3) & (size < 1e-2))
             out.append([f"{length}, {float(found.header['velocity']):g}", *(shown(one) for one in (*times, time / share, time / (1 - share)))])
     return table(["length, velocity", ">= 1e-4", ">= 0.002", ">= 0.01", ">= 0.1", "0.001 to 0.01: slips", "others"], out)
 
 
 def slider_table():
     """Of the settings of the block-slider that were tried, the one nearest to the paper over all lengths."""
-    statements, rows = calibrate.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # below: loading only
-    groups = grouped(rows, lambda row: tuple(row[key] for key in calibrate.SLIDER_KEYS))
-    key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
+    statements, rows = paper.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # below: loading only
+    groups = grouped(rows, lambda row: tuple(row[key] for key in paper.SLIDER_KEYS))
+    key, rows = min(groups.items(), key=lambda one: sum(paper.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
     head = [
@@ -784,7 +781,7 @@ def slider_velocity_table():
     rows = [row for row in read(SLIDERS) if all(row[key] == value for key, value in fixed.items())]
     groups = grouped(sorted(rows, key=lambda row: (float(row["velocity"]), int(row["blocks"]))), lambda row: row["velocity"])
 
-    told = [one for one in calibrate.SLIDER_STATEMENTS if one.name != "large"]
+    told = [one for one in paper.SLIDER_STATEMENTS if one.name != "large"]
     blocks = ", ".join(row["blocks"] for row in groups["0.01"])
     paper = ["paper", *(one.text for one in told)]
     return table([f"velocity, each for {blocks} blocks", *(one.name for one in told)],
@@ -802,7 +799,7 @@ def ground_table():
         return ", ".join(f"{abs(sum(cmath.exp(1j * k * x) for x in face))**2 / len(face):.1f}" for face in places[seeds, length].values())
 
     def z(paths):
-        return ", ".join(f"{periods.rayleigh_z(*periods.slips_of(path, calibrate.LOADING, 1e-2), 1.0):.1f}" for path in paths)
+        return ", ".join(f"{periods.rayleigh_z(*periods.slips_of(path, LOADING, 1e-2), 1.0):.1f}" for path in paths)
 
     columns = {
         "length": lambda row: row["length"], "structure factor of the faces, grid": lambda row: factors("grid", row["length"]),
@@ -885,7 +882,7 @@ def slow_driving_slider_table():
 def work_precision_table():
     columns = {"time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}"}
     columns |= {"model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}"}
-    return study_table("accuracy_catalogues.csv",
+    return study_table("accuracy_analysis.csv",
                        columns | {"events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"})
 
 
@@ -978,7 +975,7 @@ def differing(path, rows, there=None, least=1e-6):
     wrong, there = [], read(path) if there is None else there
     for n, (old, new) in enumerate(zip(there, rows), 1):
         for key in new:
-            a, b = old[key], catalogues.text_of(new[key] if new[key] is not None else math.nan)
+            a, b = old[key], text_of(new[key] if new[key] is not None else math.nan)
             try:
                 same = math.isclose(float(a), float(b), rel_tol=least, abs_tol=1e-12)
             except ValueError:
@@ -1001,7 +998,7 @@ def check_csv():
     for folder, threshold in (CAMPAIGN, 1e-4), (VALIDATION, None):
         again = {}
         for path in (path for paths in faults(folder=folder).values() for path in paths):
-            for row in statements.statements_of(POSTPROC, path, calibrate.LOADING, run="none", threshold=threshold):
+            for row in statements.statements_of(POSTPROC, path, LOADING, run="none", threshold=threshold):
                 again[path.name.split(".")[0], row["number"]] = row
         there = [row for row in read(folder / "statements.csv") if (row["run"], row["number"]) in again]
         made = [again[row["run"], row["number"]] for row in there]

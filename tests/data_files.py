@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from programs import INPUTS, SOURCE
+from programs import SOURCE
 
-sys.path.insert(0, str(INPUTS / "studies"))
-from text_tables import header_of, rows_of  # noqa: E402
+sys.path.insert(0, str(SOURCE / "python"))
+from lsm.tables import header_of, rows_of  # noqa: E402
 
 COLUMNS = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end".split(",")
 

@@ -11,175 +11,34 @@ calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, 
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up; rows of other
                                              runs that the file has stay
 
-results/tables.py makes the tables of results/calibration.md of the same statements.
-
-Only statements that the paper prints count; those of our own (†) are reported beside them. Approximate Bayesian computation with a
+The statements are those of lsm.paper. Approximate Bayesian computation with a
 surrogate: each number is interpolated between the points that were run by a Gaussian process (Rasmussen & Williams 2006) with a length
 scale for each value, of which scikit-learn finds the likeliest. A set of values is as likely as the deviations of its predicted
 numbers from the paper's are, in units of the tolerance and of the surrogate's own error; it has to meet them at lengths 120 and 480.
 """
-import csv
 import json
-import lzma
 import math
 import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Callable, NamedTuple
+from typing import NamedTuple
 
-from text_tables import rows_of
-
-sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "results"))
+INPUTS = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
+from lsm import LOADING, summary  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.paper import RANGES, SLIDER_SETTINGS, STATEMENTS, STATEMENTS_BY_NAME, STEPS, WINDOWS, WORDED, completed, printed  # noqa: E402
+from lsm.tables import read, write_table  # noqa: E402
+from variables import defaults  # noqa: E402
 
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
 MEMORIES = (0.4, 0.7, 1, 1.6)
-LOADING = 8000  # time units that are left out: compression, and the first loading, in which PE rises
 SETTINGS = ("length", "width", "seed", "stress", "viscosity", "kt", "mus", "retardation", "impedance", "hold", "mass", "contacts", "loose", "faces",
             "seeds", "linkratio", "velocity", "dt", "massstep", "steps")  # of a point
-RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
-WINDOWS = ("16:22", "22:28", "30:36", "38:44")
-WAVE_SPEED = {"r2": 2.00, "r3": 2.5}  # of long P-waves, results/waves_packing.csv; r3: of pulses, p_wave_packing.in
 
-SLIDER_SETTINGS = {"blocks": "", "scheme": "", "dt": "", "picker": "", "picker-lambda": "", "picker-memory-time": "", "velocity": "0.01"}
-SLIDER_KEYS = (*list(SLIDER_SETTINGS)[1:], "warmup", "smallest")
 SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
-
-
-def defaults(preset="statistics"):
-    """Defaults of the variables of fault.in with a preset, for what a table does not set."""
-    text = (Path(__file__).resolve().parent.parent / "fault.variables").read_text()
-    cells = [[cell.strip() for cell in line.split("|")] for line in text.splitlines() if line.count("|") > 4]
-    preset_values = re.findall(rf"^when preset {preset} : (.*)", text, re.M)
-    return {row[0]: row[1] for row in cells} | dict(words.split() for line in preset_values for words in line.split(","))
-
-
-def number(row, key):
-    return float(row[key]) if row.get(key) else math.nan
-
-
-def decades(row):
-    parts = [number(row, f"exponent_{text}") - 1.07 for text in RANGES[1:]]
-    return math.sqrt(sum(part * part for part in parts) / len(parts))
-
-
-def swings(row):
-    """Share of inter-event times that are near a period of the blocks between the plates, less the share of times beside it."""
-    beside = 0.5 * (number(row, "share_16:22_0.0001") + number(row, "share_38:44_0.0001"))
-    return max(number(row, "share_22:28_0.0001"), number(row, "share_30:36_0.0001")) - beside
-
-
-def memories(row):
-    """Mean inter-event time in memories of the picker (the paper: 3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps)."""
-    return number(row, "mean_time_0.0001") / float(row["memory"])
-
-
-# What results/statements.py measures: {column: name of the number in its table}
-WORDED = {
-    "rise": "largest rise of the density, at all times",
-    "rise_slipping": "largest rise of the density, while something slips",
-    "recorded": "slip recorded over that of the plates",
-    "one_bin": "share of ruptures of one bin (from 5 plate velocities on)",
-    "slip_between": "share of the slip while no event is open",
-    "rate_within": "slip rate within events over that between them",
-    "rate_between": "slip rate between events over that of the plates",
-    "loading": "rise of PE between events over the work of the plates",
-    "roll_off_power": "power d of s^-a exp(-(s/c)^d)",
-    "roll_off_gain": "2 ln L of d = 1 over a power law without end",
-}
-
-
-class Statement(NamedTuple):
-    """A number that has to be within an interval; its deviation is the distance to that in units of a tolerance."""
-    name: str
-    text: str  # with † if it is not the paper's
-    value: Callable
-    low: float
-    high: float
-    tolerance: float
-    log: bool = False  # of the number, the interval and the tolerance
-
-    def scaled(self, row):
-        return self.scale(self.value(row))
-
-    def scale(self, value):
-        return (math.log(value) if value > 0 else math.nan) if self.log else value
-
-    def interval(self):
-        return (math.log(self.low), math.log(self.high)) if self.log else (self.low, self.high)
-
-    def deviation(self, row):
-        return self.deviation_of(self.value(row))
-
-    def deviation_of(self, value):
-        """At most ten, which it is if the number cannot be had for lack of events."""
-        (low, high), value = self.interval(), self.scale(value)
-        return min(10.0, max(low - value, 0.0, value - high) / self.tolerance) if math.isfinite(value) else 10.0
-
-
-def of(key):
-    return lambda row: number(row, key)
-
-
-def roll_off_gain(row):
-    """0 where points.csv has none though it has an exponent: postproc gave none below 3.84 when these points were collected."""
-    return 0.0 if row.get("exponent_1e-4:1e-1") and not row.get("roll_off_gain") else number(row, "roll_off_gain")
-
-
-ANY = math.inf
-STATEMENTS = (
-    Statement("exponent", "sizes go as s^-1.07 from 1e-4 over three decades: exponent", of("exponent_1e-4:1e-1"), 1.07, 1.07, 0.07),
-    Statement("decades", "so in each of these decades (no second population): rms distance of their exponents from 1.07", decades, 0, 0, 0.3),
-    Statement("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", of("gamma_0.0001"), 0.995, 0.995, 0.1),
-    Statement("rate", "mean time between events, in memories of the picker: 12.5 to 100", memories, 12.5, 100, 0.3, True),
-    Statement("B", "B 15.21 time units", of("B_0.0001"), 15.21, 15.21, 0.2, True),
-    Statement("stick-slip", "PE rises while the fault is locked: share of the time in which it falls, below a third", of("in_events"), -ANY, 0.33,
-              0.03),
-    Statement("velocities", "the density of slip velocities falls all the way: largest ratio of a bin to one of smaller velocities, 1 or less",
-              of("rise"), -ANY, 1, 0.5),
-    Statement("neighbours", "slip at one contact mostly triggers its neighbours: share of the ruptures that stay within one bin, below a half",
-              of("one_bin"), -ANY, 0.5, 0.1),
-    Statement("roll-off", "sizes roll off: 2 ln L of an exponential roll-off over a power law without end, above 3.84", roll_off_gain, 3.84, ANY, 1),
-    Statement("waves", "velocity of P-waves: 2.12 (Eq. 4)", lambda r: WAVE_SPEED[r["mass"]], 2.12, 2.12, 0.1),
-    Statement("least squares", "gamma by least squares on the density †", of("gamma_squares"), 0.995, 0.995, 0.1),
-    Statement("locked", "the fault is locked between events: slip velocity there over that of the plates, below a half †", of("rate_between"), -ANY,
-              0.5, 0.1),
-    Statement("loading", "PE rises there by loading: its rise over the work of the plates, above a half †", of("loading"), 0.5, ANY, 0.1),
-    Statement("steps", "events are resolved: share of those of 3 steps or less, at most 0.02 †", of("brief"), -ANY, 0.02, 0.02),
-    Statement("swings", "inter-event times are no oscillations of the blocks: share of times at their periods beyond that beside, at most 0.02 †",
-              swings, -ANY, 0.02, 0.03),
-    Statement("slip", "events of 0.001 to 0.1 are slip: share of what the springs lose that friction takes up, above a half †", of("excess"), 0.5,
-              ANY, 0.1),
-)
-STATEMENTS_BY_NAME = {one.name: one for one in STATEMENTS}
-
-
-def printed(statements=STATEMENTS):
-    return tuple(one for one in statements if "†" not in one.text)
-
-
-def distance(row, statements=None):
-    """Root mean square of the deviations from what is printed."""
-    parts = [one.deviation(row) for one in statements or printed()]
-    return math.sqrt(sum(part * part for part in parts) / len(parts))
-
-
-def read(path):
-    path = Path(path)
-    with (lzma.open if path.suffix == ".xz" else open)(path, "rt") as lines:
-        return list(rows_of(lines))
-
-
-# Statements about the block-slider, each of which is evaluated at each of the five lengths.
-SLIDER_STATEMENTS = (
-    Statement("events", "3000 to 5000 in 1e7 steps", of("events"), 3000, 5000, 0.3, True),
-    Statement("small", "exponent 0.5 below size 1", of("exponent_1e-2:1"), 0.5, 0.5, 0.1),
-    Statement("large", "exponent 1.0 above", of("exponent_1:1e2"), 1, 1, 0.1),
-    Statement("gamma", "0.0", of("gamma"), 0, 0, 0.1),
-    Statement("B", "100", of("B"), 100, 100, math.log(2), True),
-    Statement("C", "0.25", of("C"), 0.25, 0.25, 0.05),
-)
 
 # ---- prior
 
@@ -233,7 +92,6 @@ UNPRINTED = {
 }
 MEMORY = Value(0.3, 2, True)
 RUN = "memory=0.7 ruptures=yes"  # in each run; its series are picked with other memories
-STEPS = 110000
 SAMPLES = 20000
 LEARNT = 200  # numbers of each kind from which length scales are learnt
 
@@ -273,9 +131,9 @@ def loaded(time, pe):
 
 def numbers_of_point(postproc, folder, memory, work):
     import numpy as np
-    import summary
-    from slip_or_exchange import History, judged, lsm, recorded
-    from statements import statements_of
+    import lsm
+    from lsm.slip import History, judged, recorded
+    from lsm.statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
@@ -324,20 +182,10 @@ def collect(binaries, output, folders):
             for memory in MEMORIES:
                 numbers = numbers_of_point(Path(binaries) / "postproc", folder, memory, Path(work))
                 rows.append({**settings, "memory": str(memory), "stopped": "no", **numbers})
-    write(output, "# One row for each point and memory of the picker; stopped: a link was strained by half its length", rows)
-
-
-def write(output, comment, rows):
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    with (lzma.open if str(output).endswith(".xz") else open)(output, "wt") as file:
-        file.write(comment + "\n")
-        table = csv.DictWriter(file, columns, lineterminator="\n")
-        table.writeheader()
-        table.writerows(rows)
+    write_table(output, ["One row for each point and memory of the picker; stopped: a link was strained by half its length"], rows)
 
 
 def collect_sliders(binaries, output, folders):
-    import summary
     rows = read(output) if Path(output).exists() else []
     there = {tuple(row[key] for key in SLIDER_SETTINGS) for row in rows}
     for folder in map(Path, folders):
@@ -354,23 +202,10 @@ def collect_sliders(binaries, output, folders):
                     **settings, "warmup": str(warmup), "smallest": size, "exponent_1e-2:1": numbers["exponent_1e-2:1"],
                     "exponent_1:1e2": numbers["exponent_1:1e2"], **own
                 })
-    write(output, "# One row for each run, smallest size of the events and warm-up; 1e7 steps each", rows)
+    write_table(output, ["One row for each run, smallest size of the events and warm-up; 1e7 steps each"], rows)
 
 
 # ---- surrogate and posterior
-
-
-def completed(path):
-    return [row for row in read(path) if row["stopped"] == "no"]
-
-
-def nearest(rows):
-    """The points, each with the memory that fits best, nearest first."""
-    best = {}
-    for row in rows:
-        if row["point"] not in best or distance(row) < distance(best[row["point"]]):
-            best[row["point"]] = row
-    return sorted(best.values(), key=distance)
 
 
 class Surrogate:
@@ -501,9 +336,10 @@ def posterior(path, base):
         return f"{stress[order][np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())]:.3g}"
 
     medians = ", ".join(f"at {length} {middle(likelihood(predicted, printed(surrogate.statements)))}" for length, predicted in found.items())
-    write(
-        f"{base}.csv", f"# {KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
-        f" Median stress if one length alone is asked for, and no P-wave speed: {medians}", out)
+    write_table(f"{base}.csv", [
+        f"{KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
+        f" Median stress if one length alone is asked for, and no P-wave speed: {medians}"
+    ], out)
     lines = []
     for one in STATEMENTS:
         line = {"statement": one.name}
@@ -515,9 +351,10 @@ def posterior(path, base):
         if one.name in surrogate.left_out:
             line |= {"left_out": f"{surrogate.left_out[one.name][0]:.3g}", "spread": f"{surrogate.left_out[one.name][1]:.3g}"}
         lines.append(line)
-    write(
-        f"{base}.statements.csv", "# Shares of prior and posterior that are predicted to; left_out:"
-        " error of the surrogate at points that it was not given, of the number or its logarithm, and their standard deviation", lines)
+    write_table(f"{base}.statements.csv", [
+        "Shares of prior and posterior that are predicted to; left_out:"
+        " error of the surrogate at points that it was not given, of the number or its logarithm, and their standard deviation"
+    ], lines)
     figure(rows, out, base)
 
 
@@ -528,7 +365,6 @@ UNPRINTED_KEYS = tuple(
 
 def figure(rows, samples, base):
     """Marginals and pairs of the posterior (orange) beside the points that were run (grey)."""
-    from catalogues import draw
     values = {key: UNPRINTED.get(key, MEMORY) for key in SHOWN}
 
     def at(row, key):

@@ -18,10 +18,13 @@ import signal
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from calibrate import LOADING, defaults  # noqa: E402
+INPUTS = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
+from lsm import LOADING  # noqa: E402
+from lsm.statements import statements_of as measured  # noqa: E402
+from lsm.tables import header_of  # noqa: E402
 from run import events_in, replace, replace_all  # noqa: E402
-from text_tables import header_of  # noqa: E402
+from variables import defaults  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
@@ -114,8 +117,7 @@ def catalogue_of(folder):
 
 
 def statements_of(postproc, catalogue):
-    """Rows of results/statements.py for one run."""
-    from statements import statements_of as measured  # needs NumPy
+    """Rows of lsm.statements for one run."""
     with open(catalogue) as lines:
         header = header_of(lines)
     try:

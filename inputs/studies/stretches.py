@@ -9,7 +9,7 @@ stretches of about 120, fixed in space, whose energies add up to PE (weights fal
 one to the next without jumps). Writes, of all runs,
   OUT.variance.csv   variance of the changes of PE over a time, over the sum of those of the stretches (1: independent), and the
                      correlation of the changes of stretches, by their distance in stretches
-  OUT.events.csv     numbers of results/summary.py for the events of the whole, of sums of its stretches shifted in time at random
+  OUT.events.csv     numbers of lsm.summary for the events of the whole, of sums of its stretches shifted in time at random
                      (no interaction left), and of each stretch with a picker of its own (mean over stretches)
 """
 import argparse
@@ -24,10 +24,11 @@ from pathlib import Path
 
 import numpy as np
 
-from calibrate import LOADING
-from summary import rows_of  # of the folder results, which calibrate adds to the path
-from superpose import write
-from text_tables import header_of, memory_of
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "python"))
+from lsm import LOADING  # noqa: E402
+from lsm.summary import rows_of  # noqa: E402
+from lsm.tables import header_of, memory_of  # noqa: E402
+from superpose import write  # noqa: E402
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # number of sums with different shifts

@@ -19,10 +19,10 @@ import sys
 from pathlib import Path
 
 import yaml
-from calibrate import LOADING
 
 INPUTS = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(INPUTS))
+sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
+from lsm import LOADING  # noqa: E402
 from run import PROGRAMS, begun_otherwise, replace  # noqa: E402
 
 RESERVED = ("run", "program", "ranks", "settings")

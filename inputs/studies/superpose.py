@@ -16,7 +16,8 @@ import array
 import sys
 from pathlib import Path
 
-from text_tables import header_of
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "python"))
+from lsm.tables import header_of  # noqa: E402
 
 MAGIC = b"lsm-pe-series-1\n"
 

@@ -1,4 +1,4 @@
-# Draws walk.png and walk.svg from walk.csv (studies/walk.py)
+# Draws walk.png and walk.svg from walk.csv (results/walk.py)
 set datafile separator ","
 set datafile columnheaders
 if (!exists("table")) { table = "walk.csv" }

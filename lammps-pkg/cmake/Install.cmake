@@ -19,6 +19,7 @@ install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm F
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lammps-pkg/styles/own/lsm_version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm OPTIONAL)
 # Scenes, studies, pages and results in the folders of the checkout, so that their links hold.
 install(DIRECTORY inputs DESTINATION ${share} PATTERN __pycache__ EXCLUDE REGEX "\\.(sh|py)$" PERMISSIONS ${for_all})
+install(DIRECTORY python/lsm DESTINATION ${share}/python FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY results DESTINATION ${share} FILES_MATCHING REGEX "\\.(md|png|svg|csv|html|xz|py)$")
 install(DIRECTORY lammps-pkg/doc DESTINATION ${share}/lammps-pkg FILES_MATCHING REGEX "\\.(md|rst)$")
 install(FILES lammps-pkg/README.md DESTINATION ${share}/lammps-pkg)
@@ -91,7 +92,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin, python3-numpy")
 # Debian's LAMMPS has a program lmp, too.
 set(CPACK_DEBIAN_PACKAGE_CONFLICTS lammps)
 set(CPACK_STRIP_FILES ON)

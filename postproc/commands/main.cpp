@@ -33,7 +33,7 @@ const char *const description =
 const std::map<std::string_view, std::string_view> moved = {
     {"rupture", "python3 -m lsm.ruptures"},      {"report", "inputs/studies/report.py"},
     {"units", "units() of Python's module lsm"}, {"spectrum", "spectrum() of Python's module lsm"},
-    {"rates", "rates() of Python's module lsm"}, {"summary", "results/summary.py"},
+    {"rates", "rates() of Python's module lsm"}, {"summary", "python3 -m lsm.summary"},
     {"--scaling", "python3 -m lsm.scaling"}};
 
 int fail(std::string what) {

@@ -22,8 +22,11 @@ import zlib
 
 import numpy as np
 
+from lsm.tables import header_of
+
 __all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "units", "Table"]
 
+LOADING = 8000  # time units that compression and first loading of a default fault take, in which PE rises
 # In packings by create_lsm_fault, in model units, as in postproc/statistics/units.h: speeds as measured
 P_SPEED, S_SPEED, DENSITY = 2.00, 1.05, 0.286
 
@@ -53,11 +56,6 @@ def _bytes(path):
             except (EOFError, OSError, lzma.LZMAError, zlib.error) as error:
                 raise ValueError(f"{path}: cannot be decompressed ({error}), expected a complete file") from None
     return raw
-
-
-def _parameters(lines):
-    pairs = (line[1:].partition("=") for line in lines if line.startswith("#") and "=" in line)
-    return {key.strip(): value.strip() for key, _, value in pairs if key.strip()}
 
 
 def _is_number(field):
@@ -110,7 +108,7 @@ def read_catalogue(path, lenient=False):
         except (ValueError, OverflowError):
             if not lenient:
                 raise ValueError(f"{path}:{number}: " + (wrong or f"'{line}', expected {len(names)} numbers")) from None
-    return Table(np.array(rows, [(names[k], kinds[k]) for k in shown]), _parameters(lines[:first]))
+    return Table(np.array(rows, [(names[k], kinds[k]) for k in shown]), header_of(lines[:first]))
 
 
 def _binary(path, magics, what):
@@ -120,7 +118,7 @@ def _binary(path, magics, what):
         raise ValueError(f"{path}: no {what}, expected {expected} in the first 16 bytes")
     if len(raw) < 24 or len(raw) - 24 < (length := struct.unpack("<q", raw[16:24])[0]) or length < 0:
         raise ValueError(f"{path}: the header is not complete")
-    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), memoryview(raw)[24 + length:], magics.index(raw[:16]) + 1
+    return header_of(raw[24:24 + length].decode("utf-8", "replace").splitlines()), memoryview(raw)[24 + length:], magics.index(raw[:16]) + 1
 
 
 def _records(raw, kinds):

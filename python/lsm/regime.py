@@ -12,7 +12,8 @@ import math
 import numpy as np
 
 import lsm
-from lsm.program import run, write_json
+from lsm.program import run
+from lsm.tables import write_json
 
 WINDOW = 3.0  # time units: long against the periods of single discs (about 1), short against large events (10 and more)
 
@@ -66,7 +67,7 @@ def main(series, catalogue, begin, end, window, json_file):
     told = (f"{key.replace('_', ' ')} {value:.4g}" for key, value in found.items() if key not in ("regime", "why") and value is not None)
     print(f"{series}: {', '.join([found.get('regime') or 'degenerate: ' + found['why'], *told])}")
     if json_file:
-        write_json(json_file, found)
+        write_json(json_file, **found)
 
 
 def parser():

@@ -17,7 +17,8 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
-from lsm.program import add_time_window, run, write_json
+from lsm.program import add_time_window, run
+from lsm.tables import write_json
 
 PAPER_THRESHOLD = 1e-4  # smallest size in the paper's Figs. 12 and 13
 SHARPNESS = 4.0  # m of the bend: few lengths lie within it; L_c and D depend on it by more than their errors, hence BENDS
@@ -437,7 +438,7 @@ def main(catalogues, label, begin, end, threshold, bootstrap, block, seed, lenie
         print(f"  {verdict(scaling.fit)}")
     draw_all("lsm.scaling", output, [figure(found)], catalogues, not no_picture)
     if json_file:
-        write_json(json_file, dict(scaling=[as_json(scaling) for scaling in found]))
+        write_json(json_file, scaling=[as_json(scaling) for scaling in found])
 
 
 def parser():

@@ -8,9 +8,9 @@ import statistics
 import sys
 from pathlib import Path
 
-from calibrate import read
-from catalogues import draw
-from lsm.drawing import quote
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "python"))
+from lsm.drawing import draw, quote  # noqa: E402
+from lsm.tables import read  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
 

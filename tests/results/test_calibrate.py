@@ -6,10 +6,12 @@ import sys
 
 import numpy as np
 import pytest
-from programs import INPUTS, Program, run
+from programs import INPUTS, SOURCE, Program, run
 
-sys.path.insert(0, str(INPUTS / "studies"))
+sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 import calibrate  # noqa: E402
+from lsm import LOADING, paper  # noqa: E402
+from lsm.tables import write_table  # noqa: E402
 
 
 def row(point, length="120", memory="1", **settings):
@@ -19,8 +21,8 @@ def row(point, length="120", memory="1", **settings):
         "faces": "random", "retardation": "0", "mus": "0.6", "kt": "0.2", "impedance": "0", **settings
     }
     u = calibrate.UNPRINTED["viscosity"].coordinate(one, "viscosity")
-    one |= {f"exponent_{text}": "1.07" for text in calibrate.RANGES}
-    one |= {f"share_{text}_0.0001": "0.1" for text in calibrate.WINDOWS}
+    one |= {f"exponent_{text}": "1.07" for text in paper.RANGES}
+    one |= {f"share_{text}_0.0001": "0.1" for text in paper.WINDOWS}
     one |= {
         "gamma_0.0001": str(1.5 - u), "gamma_squares": "1", "B_0.0001": str(500 * float(one["stress"]) * float(memory)),
         "mean_time_0.0001": str(20 * float(memory)), "in_events": "0.3", "rise": "1", "one_bin": "0.1", "roll_off_gain": "10", "rate_between": "0.4",
@@ -30,7 +32,7 @@ def row(point, length="120", memory="1", **settings):
 
 
 def test_a_statement_is_an_interval_with_a_tolerance():
-    one = calibrate.Statement("B", "", calibrate.of("B"), 10, 20, math.log(2), True)
+    one = paper.Statement("B", "", paper.of("B"), 10, 20, math.log(2), True)
     assert one.deviation({"B": "15"}) == 0
     assert one.deviation({"B": "5"}) == pytest.approx(1)
     assert one.deviation({"B": "80"}) == pytest.approx(2)
@@ -40,7 +42,7 @@ def test_a_statement_is_an_interval_with_a_tolerance():
 def test_only_what_is_printed_counts():
     one = row("a", viscosity="0.001", stress="0.03")
     far = {**one, "excess": "-3", "rate_between": "9", "brief": "1"}
-    assert calibrate.distance(one) == calibrate.distance(far) < calibrate.distance({**one, "gamma_0.0001": "0"})
+    assert paper.distance(one) == paper.distance(far) < paper.distance({**one, "gamma_0.0001": "0"})
 
 
 def test_settings_of_a_run_are_those_of_its_preset():
@@ -83,7 +85,7 @@ def test_the_posterior_finds_the_values_that_made_the_numbers(monkeypatch):
         rows += [
             row(f"p{n:03d}", length, str(memory), **{**{"impedance": ""}, **words}) for memory in calibrate.MEMORIES for length in ("120", "480")
         ]
-    _, memory, words, found, log, surrogate = calibrate.sampled(rows, 1, calibrate.printed())
+    _, memory, words, found, log, surrogate = calibrate.sampled(rows, 1, paper.printed())
     likely = [n for n in range(len(log)) if log[n] > max(log) - 1]
     # gamma 0.995 is a coordinate of 0.505, and B 15.21 a product of stress and memory
     for n in likely:
@@ -115,7 +117,7 @@ def test_points_are_proposed_for_what_is_not_printed_as_well(tmp_path, monkeypat
         rows += [{**row(f"p{n:03d}", length, str(memory), **{**{"impedance": ""}, **words}), "excess": str(slip)} for memory in calibrate.MEMORIES
                  for length in ("120", "480")]
     points, table = tmp_path / "points.csv", tmp_path / "study.csv"
-    calibrate.write(points, "# points", rows)
+    write_table(points, ["points"], rows)
     calibrate.propose(table, "120", 60, points, "slip")
     lines = [line.split(",") for line in table.read_text().splitlines()]
     assert [line[0] for line in lines] == [f"s{n:03d}" for n in range(60)]
@@ -130,4 +132,4 @@ def test_a_run_counts_when_it_is_loaded():
     pe = np.where(time < 12000, time / 12000, 0.8 + 0.2 * ((time - 12000) % 2000) / 2000)
     last = pe[3 * len(pe) // 4:].mean()
     assert calibrate.loaded(time, pe) == pytest.approx(12000 * last, abs=20)
-    assert calibrate.loaded(time / 2, pe) == calibrate.LOADING
+    assert calibrate.loaded(time / 2, pe) == LOADING

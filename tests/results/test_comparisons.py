@@ -11,11 +11,12 @@ from programs import SOURCE, Program, refused, run
 
 RESULTS = SOURCE / "results"
 sys.path.insert(0, str(RESULTS))
-import catalogues  # noqa: E402
 import match  # noqa: E402
 import nature  # noqa: E402
 import periods  # noqa: E402
 import rupture_benchmark as benchmark  # noqa: E402
+from lsm.analysis import mean_and_error  # noqa: E402
+from lsm.tables import read  # noqa: E402
 
 # ---- match.py
 
@@ -132,10 +133,10 @@ def test_random_numbers_are_those_of_the_mersenne_twister():
 
 
 def test_mean_and_error():
-    assert catalogues.mean_and_error([2.0, math.nan], [0.3, 0.1]) == (2.0, 0.3)
-    assert catalogues.mean_and_error([1.5, 1.5], [0.3, 0.4]) == pytest.approx((1.5, 0.25))
-    assert catalogues.mean_and_error([1.0, 3.0], [0.3, 0.4]) == pytest.approx((2.0, 1.0))
-    assert math.isnan(catalogues.mean_and_error([math.nan])[0])
+    assert mean_and_error([2.0, math.nan], [0.3, 0.1]) == (2.0, 0.3)
+    assert mean_and_error([1.5, 1.5], [0.3, 0.4]) == pytest.approx((1.5, 0.25))
+    assert mean_and_error([1.0, 3.0], [0.3, 0.4]) == pytest.approx((2.0, 1.0))
+    assert math.isnan(mean_and_error([math.nan])[0])
 
 
 def test_distance_sees_the_law_and_not_the_unit():
@@ -221,7 +222,7 @@ def test_summary_is_root_mean_square():
 
 def test_summary_is_that_of_the_page():
     """The published stations give the numbers of rupture-benchmark.md."""
-    stations = [row for row in catalogues.rows_of(open(RESULTS / "rupture_benchmark-stations.csv")) if row["reference"].startswith("boundary")]
+    stations = [row for row in read(RESULTS / "rupture_benchmark-stations.csv") if row["reference"].startswith("boundary")]
     for spacing, arrival, slip, rate in (("200", 0.0357, 0.42, 19.7), ("100", 0.0086, 0.15, 8.4), ("50", 0.0029, 0.06, 3.8)):
         some = [{key: value if key in ("run", "reference") else float(value) for key, value in row.items()} for row in stations
                 if row["spacing"] == spacing]  # yapf: disable

@@ -12,17 +12,13 @@ from programs import SOURCE, Program, refused, run
 
 sys.path.insert(0, str(SOURCE / "results"))
 import slip_or_exchange  # noqa: E402
-from catalogues import rows_of  # noqa: E402
+from lsm import slip as lsm_slip  # noqa: E402
+from lsm.tables import read as table  # noqa: E402
 
 
 @pytest.fixture
 def script():
     return Program("slip_or_exchange.py", sys.executable, SOURCE / "results/slip_or_exchange.py")
-
-
-def table(path):
-    with open(path) as lines:
-        return list(rows_of(lines))
 
 
 def test_excess_rank_and_chance(script, postproc, work):
@@ -43,7 +39,7 @@ def test_excess_rank_and_chance(script, postproc, work):
         run(script, "events", name, f"{name}.events.csv.xz")
         _, found = read_catalogue(f"{name}.events.csv.xz")
         assert len(found["size"]) == cycles
-        np.testing.assert_allclose(slip_or_exchange.excess_of(found)[0], excess, atol=2e-4)
+        np.testing.assert_allclose(lsm_slip.excess_of(found)[0], excess, atol=2e-4)
         run(postproc, "select", f"{name}.events.csv.xz", "--where", "excess>0.5", "-o", f"{name}.slip.csv")
         assert len(read_catalogue(f"{name}.slip.csv")[1]["size"]) == (cycles if name == "run" else 0)
         rank = np.mean(found["rank"])
@@ -71,7 +67,7 @@ def test_random_stretches_keep_clear_of_events_as_large(work):
     write_history("run.slip.bin", np.arange(1001), np.full((1001, 2), 1e-3))
     kinds = [("step_start", float), ("step_end", float), ("size", float)]
     events = np.array([(100.0, 150.0, 1.0), (400.0, 402.0, 0.1), (500.0, 550.0, 2.0), (700.0, 798.0, 5.0)], kinds)
-    starts = np.array(list(slip_or_exchange.random_starts(slip_or_exchange.History("run.slip.bin"), events, 0.0, 1)))
+    starts = np.array(list(lsm_slip.random_starts(lsm_slip.History("run.slip.bin"), events, 0.0, 1)))
     lasting = events["step_end"] - events["step_start"]
     assert starts.min() >= 0 and np.all(starts.max(axis=0) + lasting <= 1000)
     met = [[np.any((start < other["step_end"]) & (start + long > other["step_start"])) for other in events] for start, long in zip(starts.T, lasting)]
@@ -84,10 +80,10 @@ def test_half_of_the_slip_lies_together_or_is_scattered(work):
     slip = np.full((201, 10), 0.01)
     slip[1], slip[200] = [4, 1, 1, 1, 1, 1, 1, 1, 1, 4], [0, 0, 7, 0, 0, 0, 0, -1, 0, 0]
     write_history("run.slip.bin", np.arange(201), slip)
-    history, begin = slip_or_exchange.History("run.slip.bin"), np.array([0.0, 1.0, 199.0])
+    history, begin = lsm_slip.History("run.slip.bin"), np.array([0.0, 1.0, 199.0])
     assert list(history.half(begin, begin + 1)) == [2, 5, 1]
     events = np.array([(1.0, 2.0, 1.0), (199.0, 200.0, 1.0)], [("step_start", float), ("step_end", float), ("size", float)])
-    scattered, together = slip_or_exchange.gathered(history, events, 0.0)
+    scattered, together = lsm_slip.gathered(history, events, 0.0)
     assert together > 0.9 and scattered == 0.0, (together, scattered)
 
 
@@ -95,8 +91,8 @@ def test_as_many_as_by_chance_are_no_slip():
     """Events of which half are slip, in a fault where three tenths of all stretches would count as slip: these are left out."""
     excess = np.concatenate([np.full(500, 0.9), np.where(np.arange(500) % 10 < 3, 0.7, -0.2)])
     chance = np.full(1000, 0.3)
-    assert slip_or_exchange.slip_share(excess, chance) == pytest.approx(0.5)
-    assert slip_or_exchange.slip_share(excess[500:], chance[500:]) == pytest.approx(0.0)
+    assert lsm_slip.slip_share(excess, chance) == pytest.approx(0.5)
+    assert lsm_slip.slip_share(excess[500:], chance[500:]) == pytest.approx(0.0)
 
 
 def test_a_spring_that_lets_go_is_a_jump():
@@ -106,7 +102,7 @@ def test_a_spring_that_lets_go_is_a_jump():
     pe[651:] -= 0.005
     events = np.array([(100 * n, 100 * n + 100, pe[100 * n] - pe[100 * n + 100]) for n in (0, 2, 6)] + [(650, 651, pe[650] - pe[651])],
                       [("step_start", float), ("step_end", float), ("size", float)])
-    found = slip_or_exchange.jumps(pe, steps, events)
+    found = lsm_slip.jumps(pe, steps, events)
     assert list(found[:2]) == [0, 0] and 0.2 < found[2] < 0.25 and found[3] == pytest.approx(1.0), found
 
 
@@ -115,10 +111,10 @@ def test_springs_are_loaded_while_they_slip():
     t = 10.0 * np.arange(1, 101)
     kinds = [("t_start", float), ("t_end", float), ("size", float), ("friction_work", float), ("friction_total", float)]
     found = np.array([(a, a + 2, 0.08, 0.1, 0.1 * n) for n, a in enumerate(t)], kinds)
-    excess, loaded = slip_or_exchange.excess_of(found)
+    excess, loaded = lsm_slip.excess_of(found)
     np.testing.assert_allclose(excess, 1.25)
     np.testing.assert_allclose(excess * found["size"] / (found["size"] + loaded), 1.0)
-    assert slip_or_exchange.friction_share(found["size"], excess, loaded) == pytest.approx(1.0)
+    assert lsm_slip.friction_share(found["size"], excess, loaded) == pytest.approx(1.0)
 
 
 def test_random_phases_keep_the_spectrum():

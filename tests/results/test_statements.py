@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""statements.py: a run with known numbers, and the estimates by themselves."""
+"""lsm.statements: a run with known numbers, and the estimates by themselves."""
 import json
 import sys
 
@@ -8,14 +8,14 @@ import pytest
 from data_files import write_catalogue, write_history
 from programs import SOURCE, Program, refused, run
 
-sys.path.insert(0, str(SOURCE / "results"))
-import statements  # noqa: E402
-from catalogues import lsm  # noqa: E402
+sys.path.insert(0, str(SOURCE / "python"))
+import lsm  # noqa: E402
+from lsm import statements  # noqa: E402
 
 
 @pytest.fixture
 def script(postproc):
-    return Program("statements.py", sys.executable, SOURCE / "results/statements.py", postproc.path)
+    return Program("lsm.statements", sys.executable, "-m", "lsm.statements", postproc.path, env={"PYTHONPATH": SOURCE / "python"})
 
 
 @pytest.fixture

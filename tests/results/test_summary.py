@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""summary.py: one row of numbers for each catalogue, compared with the events and with postproc."""
+"""lsm.summary: one row of numbers for each catalogue, compared with the events and with postproc."""
 import csv
 import json
 import math
@@ -11,13 +11,13 @@ import pytest
 from data_files import read_catalogue, table, write_catalogue
 from programs import SOURCE, Program, refused, run
 
-sys.path.insert(0, str(SOURCE / "results"))
-import summary  # noqa: E402
+sys.path.insert(0, str(SOURCE / "python"))
+from lsm import summary  # noqa: E402
 
 
 @pytest.fixture
 def script(postproc):
-    return Program("summary.py", sys.executable, SOURCE / "results/summary.py", postproc.path)
+    return Program("lsm.summary", sys.executable, "-m", "lsm.summary", postproc.path, env={"PYTHONPATH": SOURCE / "python"})
 
 
 def test_summary(script, postproc, work):

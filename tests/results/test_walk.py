@@ -5,11 +5,11 @@ import random
 import sys
 
 import pytest
-from programs import INPUTS
+from programs import SOURCE
 
-sys.path.insert(0, str(INPUTS / "studies"))
+sys.path.insert(0, str(SOURCE / "results"))
 import walk  # noqa: E402
-import summary  # noqa: E402
+from lsm import summary  # noqa: E402
 
 CATALOGUES = sorted((walk.RESULTS / "walk").glob("chain-512_?.catalogue.csv.xz"))
 

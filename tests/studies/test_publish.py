@@ -59,14 +59,14 @@ def test_small_events_are_left_out_and_the_header_says_so(runs):
         wanted = [line for line in rows(runs[0] / f"fault.{name}.csv") if float(line.split(",")[5]) >= least]
         assert wanted and rows(out) == wanted
         assert header(out)["thinned"] == f"sizes below {least:g} left out"
-    run(Program("publish", INPUTS / "studies/publish.py"), "--ruptures 0.01 out", runs[0])
+    run(Program("publish", sys.executable, INPUTS / "studies/publish.py"), "--ruptures 0.01 out", runs[0])
     assert header("out/fault_24_1.ruptures.csv.xz")["min_size"] == "0.01"
     publish.publish(source, Path("half.xz"), sizes[len(sizes) // 2])
     assert len(rows("half.xz")) == len(sizes) - len(sizes) // 2
 
 
 def test_runs_that_are_not_done_are_refused(runs, tmp_path):
-    script = Program("publish.py", INPUTS / "studies/publish.py")
+    script = Program("publish.py", sys.executable, INPUTS / "studies/publish.py")
     folder = tmp_path / "fault_24_1"
     shutil.copytree(runs[0], folder)
     run(script, "out", folder)
@@ -86,7 +86,7 @@ def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
     with open(tmp_path / "out/statements.csv") as file:
         found = list(csv.DictReader(file))
     for n, folder in enumerate(runs, 1):
-        measure = Program("statements.py", sys.executable, SOURCE / "results/statements.py", postproc.path)
+        measure = Program("lsm.statements", sys.executable, "-m", "lsm.statements", postproc.path, env={"PYTHONPATH": SOURCE / "python"})
         run(measure, folder / "fault.catalogue.csv", "--from 60 --json out.json")
         wanted = json.loads(Path("out.json").read_text())["statements"]
         mine = [row for row in found if row["run"] == folder.name]
@@ -96,7 +96,7 @@ def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
 
 
 def test_nothing_is_published_where_something_is_refused(runs, tmp_path):
-    script = Program("publish.py", INPUTS / "studies/publish.py")
+    script = Program("publish.py", sys.executable, INPUTS / "studies/publish.py")
     for place in "a", "b":
         shutil.copytree(runs[0], tmp_path / place / "fault_24_1")
     first, bad = tmp_path / "a/fault_24_1", tmp_path / "b/fault_24_1"
@@ -146,7 +146,7 @@ def test_a_catalogue_without_small_events_stays_so(runs):
 
 def test_statements_are_replaced_whole(runs, postproc, small_disk):
     """If the disk is full, the former ones are kept."""
-    script, full = Program("publish.py", INPUTS / "studies/publish.py"), small_disk(1)
+    script, full = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), small_disk(1)
     with mock.patch.object(publish, "LOADING", 60):
         publish.main(full, runs, statements=postproc.path)
         before = (full / "statements.csv").read_bytes()

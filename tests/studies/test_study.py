@@ -19,8 +19,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from data_files import header  # noqa: E402
 from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # noqa: E402
 
-sys.path.insert(0, str(INPUTS / "studies"))
-from calibrate import LOADING  # noqa: E402
+sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
+from lsm import LOADING  # noqa: E402
 from progress import RunProgress  # noqa: E402
 from study_tables import Study, TableError, with_defaults  # noqa: E402
 

@@ -24,12 +24,15 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from calibrate import LOADING, number, read
-from catalogues import distance, earthquakes, mean_and_error, over_mean
-from summary import rows_of  # of the folder results, which calibrate adds to the path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-RESULTS = ROOT / "results"
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from lsm import LOADING  # noqa: E402
+from lsm.analysis import distance, mean_and_error, over_mean  # noqa: E402
+from lsm.summary import rows_of  # noqa: E402
+from lsm.tables import number, read  # noqa: E402
+from nature import earthquakes  # noqa: E402
+
+RESULTS = Path(__file__).resolve().parent
 DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
 FEWEST = 20  # smallest number of events in a decade
 # Lines of the table: what is added to the previous model, and its catalogues, NAME-BLOCKS and ruptures-NAME-BLOCKS
@@ -172,7 +175,7 @@ def measured(postproc, folder):
 
 
 def table(shown, name):
-    """Head and rows of one of TABLES, from walk.csv. \param shown text of a number and its error"""
+    """Head and rows of one of TABLES, from walk.csv. \\param shown text of a number and its error"""
     found = {row["station"]: row for row in read(RESULTS / "walk.csv")}
     lines = [(f"{text}, {n} blocks", f"{station}-{n}") for text, station in WALK for n in (256, 512, 1024)]
     lines += [*FAULTS, *((f"*{text}*", f"{station}-512") for text, station in CONTROLS)]

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One row of numbers for each catalogue of a model †, as CSV on standard output. Exponents and densities of times are those of postproc.
 
-summary.py POSTPROC CATALOGUE... [--from TIME] [--to TIME] [--range LO:HI]... [--threshold SIZE]... [--window LO:HI]... [--parameter NAME]...
+    python3 -m lsm.summary POSTPROC CATALOGUE... [--from TIME] [--to TIME] [--range LO:HI]... [--threshold SIZE]... [--window LO:HI]... [--parameter NAME]...
 
   events, time, largest, released   number, from the first start to the last end, largest size and sum of the sizes
   in_events, brief         share of the time within events; share of them that last 3 steps or less
@@ -17,7 +16,10 @@ import math
 import sys
 
 import numpy as np
-from catalogues import events_of, lsm, numbers_of, run
+
+import lsm
+from lsm.analysis import events_of, numbers_of
+from lsm.program import add_time_window, run
 
 BRIEF = 3  # steps
 THRESHOLDS = ("1e-4", "1e-3", "1e-2", "1e-1")
@@ -96,11 +98,10 @@ def main(postproc, catalogues, **options):
 
 
 def parser():
-    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options = argparse.ArgumentParser(prog="python3 -m lsm.summary", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("postproc", metavar="POSTPROC")
     options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
-    options.add_argument("--from", dest="begin", type=float, default=-math.inf, metavar="TIME")
-    options.add_argument("--to", dest="end", type=float, default=math.inf, metavar="TIME")
+    add_time_window(options)
     options.add_argument("--range", dest="ranges", action="append", default=[], metavar="LO:HI")
     options.add_argument("--threshold", dest="thresholds", nargs="+", default=THRESHOLDS, metavar="SIZE")
     options.add_argument("--window", dest="windows", action="append", default=[], metavar="LO:HI")

@@ -1,18 +1,21 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the paper says about its fault in words, as numbers with errors †: it prints none for these.
 
-statements.py POSTPROC CATALOGUE... [--from TIME] [--json FILE]
+    python3 -m lsm.statements POSTPROC CATALOGUE... [--from TIME] [--json FILE]
 
 Slip history and ruptures are the files beside RUN.catalogue.csv, RUN.slip.bin and RUN.ruptures.csv. As events and slip are
-clustered, errors are those of a jackknife over 20 equal parts of the time. publish.py makes the statements.csv of these pages.
+clustered, errors are those of a jackknife over 20 equal parts of the time. inputs/studies/publish.py makes the statements.csv of the pages.
 """
 import argparse
 import math
 from pathlib import Path
 
 import numpy as np
-from catalogues import events_of, lsm, numbers_in, numbers_of, plain, run, write_json
+
+import lsm
+from lsm.analysis import events_of, numbers_in, numbers_of
+from lsm.program import run
+from lsm.tables import plain, write_json
 
 PARTS = 20
 EDGES = np.concatenate([[0.0], 10.0**(0.2 * np.arange(251) - 1)])  # of bins of velocity: one below a tenth of the plates', then five per decade
@@ -216,10 +219,14 @@ def main(postproc, catalogues, begin, json_file):
     write_json(json_file, statements=[row for path in catalogues for row in statements_of(postproc, path, begin)])
 
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def parser():
+    parser = argparse.ArgumentParser(prog="python3 -m lsm.statements", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("postproc", metavar="POSTPROC", type=Path)
     parser.add_argument("catalogues", metavar="CATALOGUE", type=Path, nargs="+")
     parser.add_argument("--from", metavar="TIME", type=float, dest="begin", default=0.0)
     parser.add_argument("--json", metavar="FILE", dest="json_file")
-    run(main, parser)
+    return parser
+
+
+if __name__ == "__main__":
+    run(main, parser())

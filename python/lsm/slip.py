@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Which events of a fault are slip †: what friction takes up within them, and how far the fault slips, compared with other times.
+
+For each event:
+  excess   frictional work within it, less what friction does in as much time between events, over its size, as in
+           `postproc --where "excess > 0.5"`. 1: friction takes up what the springs lose; 0: it does no more than between events, so
+           that the energy goes to the load or waves
+  rank     share of random stretches of the run in which no place of the fault (bin of the slip history) slips as far as the place
+           that slips farthest in the event. 0.5: it slips as far as at any other time
+  chance   share of these stretches whose excess, over the size of the event, is above 0.5
+  together share of random stretches of whose slip half lies in a longer part of the fault than of that of the event. 0.5: its slip is
+           scattered like that of any other time
+  jump     share of the size by which PE falls in one step, if this fall is more than ten times the median change around it, else 0:
+           a contact whose friction falls from static to dynamic lets its spring go at once
+The stretches are as long as the event, and no event of its size or more goes on in them.
+An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
+long fault slips nearly always: shares and rates of slip leave these out.
+"""
+import numpy as np
+
+import lsm
+
+__all__ = ["AT_ONCE", "SLIP", "History", "excess_of", "friction_share", "gathered", "judged", "jumps", "recorded", "slip_share", "time_and_share"]
+
+STRETCHES = 40  # random stretches for each event
+SLIP = 0.5  # an event with a larger excess counts as slip
+
+
+class History:
+    """Slip of each place and frictional work of the whole fault, summed over time."""
+
+    def __init__(self, path):
+        history = lsm.read_slip(path)
+        history = history[history["step_end"] > history["step_begin"]]  # a run that continues another begins with an empty record
+        self.dt = float(history.header["dt"])
+        self.offset = float(history.header["time0"]) - float(history.header["step0"]) * self.dt
+        self.steps = np.concatenate([history["step_begin"][:1], history["step_end"]]).astype(float)
+        self.slip = np.concatenate([np.zeros((1, history["slip"].shape[1])), np.cumsum(history["slip"], axis=0, dtype=float)])
+        self.work = np.concatenate([[0.0], np.cumsum(history["work"].sum(axis=1, dtype=float))])
+
+    def slipped(self, at):
+        i = np.clip(np.searchsorted(self.steps, at, "right") - 1, 0, len(self.steps) - 2)
+        part = (at - self.steps[i]) / (self.steps[i + 1] - self.steps[i])
+        return self.slip[i] + (self.slip[i + 1] - self.slip[i]) * part[:, None]
+
+    def farthest(self, begin, end):
+        """Slip of the place that slips farthest from step `begin` to step `end`."""
+        return (self.slipped(end) - self.slipped(begin)).max(axis=1)
+
+    def half(self, begin, end):
+        """Length, in places, of the shortest part of the fault (a ring) with half of the slip from step `begin` to step `end`."""
+        slip, shortest = np.maximum(self.slipped(end) - self.slipped(begin), 0.0), []
+        places = np.arange(slip.shape[1])
+        for ring in np.concatenate([np.zeros((len(slip), 1)), np.cumsum(np.concatenate([slip, slip], axis=1), axis=1)], axis=1):
+            shortest.append((np.searchsorted(ring, ring[places] + ring[len(places)] / 2) - places).min())
+        return np.array(shortest)
+
+    def done(self, at):
+        """Frictional work until a step."""
+        return np.interp(at, self.steps, self.work)
+
+    def worked(self, begin, end):
+        return self.done(end) - self.done(begin)
+
+
+def recorded(catalogue, history, begin):
+    """The events >= 1e-4 from a time on that end within the history, which judged() and gathered() take."""
+    return catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+
+
+def random_starts(history, events, first, seed):
+    """Steps at which random stretches begin, STRETCHES for each event, as long, in which no event of its size or more goes on.
+
+    A stretch that meets one is drawn again, a hundred times at most: the fault may be busy. In a history from step `first` on.
+    """
+    rng, begin, end = np.random.default_rng(seed), events["step_start"].astype(float), events["step_end"].astype(float)
+    lasting, size = end - begin, np.append(events["size"], 0.0)
+
+    def busy(start, of):
+        """Whether events of the sizes of those `of` go on in stretches."""
+        places = np.stack([np.searchsorted(end, start, "right"), np.searchsorted(begin, start + lasting[of])])
+        return (places[0] < places[1]) & (np.maximum.reduceat(size, places.T.ravel())[::2] >= size[of])
+
+    for _ in range(STRETCHES):
+        start, again = np.zeros(len(lasting)), np.arange(len(lasting))
+        for _ in range(100):
+            start[again] = rng.uniform(first, history.steps[-1] - lasting.max(), len(again))
+            again = again[busy(start[again], again)]
+        yield start
+
+
+def friction_between(work, lasting, total, time):
+    """Power of friction between events that take up `work` and last so long, of `total` in all of the time."""
+    return (total - np.sum(work)) / (time - np.sum(lasting))
+
+
+def judged(history, events, first):
+    """Excess, rank and chance of all events of a run, in order, in a history from step `first` on."""
+    begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
+    work = events["friction_work"] if "friction_work" in events.dtype.names else history.worked(begin, end)  # step by step, if it was recorded
+    rate = friction_between(work, end - begin, history.worked(first, history.steps[-1]), history.steps[-1] - first)
+
+    def excess(work):
+        return np.asarray((work - rate * (end - begin)) / events["size"])
+
+    farthest, below, chance = history.farthest(begin, end), np.zeros(len(begin)), np.zeros(len(begin))
+    for start in random_starts(history, events, first, 1):
+        below += history.farthest(start, start + end - begin) < farthest
+        chance += excess(history.worked(start, start + end - begin)) > SLIP
+    return excess(work), below / STRETCHES, chance / STRETCHES
+
+
+def excess_of(events):
+    """Excess of the events of a catalogue, by their work of friction, and what their springs are loaded with meanwhile.
+
+    On the mean of all time friction takes up what the plates put in, between events less: by the difference PE rises.
+    """
+    work, lasting = events["friction_work"], events["t_end"] - events["t_start"]
+    total, time = events["friction_total"][-1] - events["friction_total"][0], events["t_end"][-1] - events["t_end"][0]
+    between = friction_between(work[1:], lasting[1:], total, time)
+    return np.asarray((work - between * lasting) / events["size"]), np.asarray((total / time - between) * lasting)
+
+
+def friction_share(size, excess, loaded):
+    """What friction takes up in events together, over what their springs lose, with what these are loaded with meanwhile."""
+    return np.sum(excess * size) / np.sum(size + loaded)
+
+
+def gathered(history, events, first):
+    """Whether the slip of each event lies together, in a history from step `first` on."""
+    begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
+    own, longer = history.half(begin, end), np.zeros(len(begin))
+    for start in random_starts(history, events, first, 2):
+        longer += history.half(start, start + end - begin) > own
+    return longer / STRETCHES
+
+
+def slip_share(excess, chance):
+    """Share of events that are slip, beyond those that would count as slip by chance."""
+    return (np.mean(excess > SLIP) - np.mean(chance)) / (1 - np.mean(chance))
+
+
+AROUND = 30  # steps before and after a fall of PE
+AT_ONCE = 0.5  # an event lets go at once if it loses more than this share of its size in one step
+
+
+def jumps(pe, steps, events):
+    """Share of the size of each event that is lost in one step, if PE jumps there; PE at consecutive steps."""
+    falls, shares = -np.diff(pe), []
+    for first, last, size in zip(np.searchsorted(steps, events["step_start"]), np.searchsorted(steps, events["step_end"]), events["size"]):
+        at = first + int(np.argmax(falls[first:last]))
+        around = np.median(np.abs(falls[max(0, at - AROUND):at + AROUND]))
+        shares.append(falls[at] / size if falls[at] > 10 * around else 0.0)
+    return np.array(shares)
+
+
+def time_and_share(found, excess, of):
+    """Mean time between some of the events of a catalogue, and share of these that are slip; NaN if there are none."""
+    if not np.any(of):
+        return np.nan, np.nan
+    return (found["t_end"].max() - found["t_start"].min()) / np.sum(of), slip_share(excess[of], found["chance"][of])
