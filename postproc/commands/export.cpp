@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 
 #include "command.h"
+#include "event_time.h"
 #include "new_file.h"
 #include "numbers.h"
 

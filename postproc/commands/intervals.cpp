@@ -6,6 +6,7 @@
 
 #include "clustering_figures.h"
 #include "command.h"
+#include "event_time.h"
 #include "interval_figures.h"
 #include "numbers.h"
 

@@ -8,6 +8,7 @@
 
 #include "catalogue_input.h"
 #include "event_condition.h"
+#include "event_time.h"
 
 namespace LSM::postproc {
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,15 +39,6 @@ struct Region {
   bool contains(const Earthquake &event) const;
 };
 
-/// Days since 1970-01-01T00:00 UTC of a date and time in ISO 8601 (or with '/' and a blank instead
-/// of '-' and 'T'), such as 1994-01-17, 1994-01-17T12:30:55.39Z, 1994-01-17 04:30:55-08:00. A time
-/// without a zone is UTC.
-/// \return nothing if the text is not such a date
-std::optional<double> parse_date(std::string_view text);
-
-/// ISO 8601 date and time, rounded to minutes, of days since 1970: 1994-01-17T12:30Z
-std::string date_text(double days);
-
 /// Parses "W/E/S/N" in degrees.
 /// \throws std::invalid_argument if it is not a possible region
 Region parse_region(std::string_view text);
@@ -58,6 +48,9 @@ constexpr std::string_view earthquake_formats =
     "columns separated by , ; | or tabs, with names such as time (or date, or year to second), "
     "latitude, longitude and mag (ComCat, NEIC, NCEDC, GeoNet, FDSN, ISC, pyCSEP); QuakeML; "
     "GeoJSON of ComCat; SCEDC; ZMAP";
+
+/// A text without its byte order mark.
+std::string_view without_mark(std::string_view content);
 
 /// Detects the format of a file by its first bytes, after a byte order mark: '# lsm-catalogue'
 /// models, a line of column names (at most one of those needed may be missing) csv, '<' quakeml,

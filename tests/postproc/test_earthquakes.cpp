@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "catalogue_input.h"
+#include "event_time.h"
 #include "unit_files.h"
 
 using namespace LSM;

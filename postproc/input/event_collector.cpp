@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "event_collector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "event_time.h"
+#include "files/file_error.h"
+#include "files/text.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+/// Whether a type says that an event is no earthquake: names of QuakeML and ComCat, the codes of
+/// SCEDC and NCEDC, and those of ISC and EMSC (IMS 1.0). What only may be something else is none of
+/// these: unknown, not reported, other event, induced events (rock bursts are among them), and
+/// everything that is not listed, such as the types of magnitudes in a column TYPE.
+bool is_no_earthquake(std::string_view type) {
+  static const std::set<std::string, std::less<>> codes = {
+      "qb", "sn", "nt", "th", "sh", "px", "bc", "ce", "co", "df", "ls", "rs",  // SCEDC, NCEDC
+      "av", "ex", "su", "ve", "vt", "km", "sm", "kh", "kx", "sx", "kn"};
+  constexpr std::string_view parts[] = {
+      "blast",           "explosi",      "quarry",    "detonati", "nuclear",     "artillery",
+      "rocket",          "aircraft",     "crash",     "collapse", "sonic",       "acoustic",
+      "noise",           "thunder",      "meteor",    "slide",    "rockfall",    "avalanche",
+      "debris",          "lahar",        "pyroclast", "erupti",   "calving",     "atmospheric",
+      "volcanic tremor", "tremor pulse", "ice quake", "icequake", "frost quake", "surface event",
+      "duplicate",       "not existing", "road cut"};
+  std::string text = in_small_letters(type);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '_' || c == '-'; }, ' ');
+  return codes.count(text) > 0 || std::any_of(std::begin(parts), std::end(parts), [&](auto part) {
+           return text.find(part) != std::string::npos;
+         });
+}
+
+std::string bad_time(const Record &record) {
+  std::string text = record[Field::time];
+  for (const Field field : {Field::date, Field::year, Field::month, Field::day, Field::hour,
+                            Field::minute, Field::second})
+    if (!record[field].empty()) text += (text.empty() ? "" : " ") + record[field];
+  return "time is " + text::in_quotes(text) +
+         ", expected a date and time such as 1994-01-17T12:30:55.39Z";
+}
+
+}  // namespace
+
+void Collector::add(const Record &record, std::int64_t line) {
+  Earthquake event;
+  const auto number = [&](Field field, const char *name, double most, double &value) {
+    const std::string &text = record[field];
+    if (field != Field::magnitude && is_missing(text)) {
+      value = NAN;
+      return true;
+    }
+    if (text::parse(text, value) && std::fabs(value) <= most) return true;
+    bad(line, fmt::format("{} is {}, expected a number", name, text::in_quotes(text)));
+    return false;
+  };
+  const std::optional<double> at = time_of(record);
+  if (!at) return bad(line, bad_time(record));
+  event.time = *at;
+  if (!number(Field::latitude, "latitude", 90.0, event.latitude) ||
+      !number(Field::longitude, "longitude", 360.0, event.longitude))
+    return;
+  // A depth only goes on to other files.
+  event.depth =
+      text::parse(record[Field::depth], event.depth) ? event.depth / record.depth_per_km : NAN;
+  if (is_no_earthquake(record[Field::type]))
+    ++list_.others[record[Field::type]];
+  else if (is_missing(record[Field::magnitude]))
+    ++list_.without_magnitude;
+  else if (number(Field::magnitude, "magnitude", 12.0, event.magnitude))
+    list_.events.push_back(event);
+}
+
+void Collector::fail(std::int64_t line, const std::string &what) const {
+  throw FileError(where(line) + what);
+}
+
+void Collector::bad(std::int64_t line, const std::string &what) {
+  if (!lenient_) fail(line, what);
+  if (list_.bad_lines++ == 0) list_.first_problem = where(line) + what;
+}
+
+EarthquakeList Collector::finish() {
+  std::int64_t others = 0;
+  std::string types;
+  for (const auto &[name, count] : list_.others) {
+    others += count;
+    types +=
+        fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, text::in_quotes(name));
+  }
+  const auto all =
+      others + list_.without_magnitude + static_cast<std::int64_t>(list_.events.size());
+  if (2 * others > all && !lenient_)
+    throw FileError(fmt::format(
+        "{}: {} of {} events are no earthquakes ({}), expected less than half; --lenient leaves "
+        "them out",
+        path_, others, all, types));
+  std::stable_sort(list_.events.begin(), list_.events.end(),
+                   [](const Earthquake &a, const Earthquake &b) { return a.time < b.time; });
+  return std::move(list_);
+}
+
+std::string Collector::where(std::int64_t number) const {
+  return unit_.empty() ? text::where(path_, number)
+                       : fmt::format("{}: {} {}: ", path_, unit_, number);
+}
+
+}  // namespace LSM::postproc
