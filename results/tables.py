@@ -882,7 +882,7 @@ def slow_driving_slider_table():
 def work_precision_table():
     columns = {"time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}"}
     columns |= {"model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}"}
-    return study_table("accuracy_analysis.csv",
+    return study_table("accuracy_catalogues.csv",
                        columns | {"events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"})
 
 
