@@ -18,6 +18,7 @@ gamma is that of `postproc intervals`.
 """
 import csv
 import itertools
+import json
 import math
 import statistics
 import sys
@@ -138,7 +139,8 @@ def stations(folder):
     found = {}
     for path in sorted([*folder.glob("*/catalogue.csv"), *folder.glob("*/fault.catalogue.csv"), *folder.glob("*.catalogue.csv.xz")]):
         run = path.name.split(".")[0] if path.suffix == ".xz" else path.parent.name
-        if path.suffix == ".xz" or (path.parent / "done.json").exists():
+        done = path.with_name("done.json")
+        if path.suffix == ".xz" or done.exists() and "failed" not in json.loads(done.read_text()):
             found.setdefault(run.rsplit("_", 1)[0], []).append(path)
     if not found:
         raise FileNotFoundError(f"{folder}: no catalogues")

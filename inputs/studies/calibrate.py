@@ -191,7 +191,8 @@ def collect_sliders(binaries, output, folders):
     for folder in map(Path, folders):
         words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
         settings = {key: words.get(key, silent) for key, silent in SLIDER_SETTINGS.items()}
-        if tuple(settings.values()) in there:
+        done = folder / "done.json"
+        if tuple(settings.values()) in there or not done.exists() or "failed" in json.loads(done.read_text()):
             continue
         for warmup in SLIDER_WARMUPS:
             numbers, = summary.rows_of(

@@ -67,9 +67,10 @@ def line_of(runs, begun, elapsed):
     """The progress line. begun: share of the work that was done at the start; elapsed: seconds since then."""
     shares = [run.share() for run in runs]
     share = share_of_work(runs, shares)
-    done = sum(share == 1.0 for share in shares)
+    failed = sum(bool(run.run.failed) for run in runs)
+    done = f"{sum(share == 1.0 for share in shares) - failed} of {len(runs)} runs done" + (f", {failed} failed" if failed else "")
     left = f", about {length_of_time(elapsed * (1 - share) / (share - begun))} left" if begun < share < 1 else ""
-    return f"{done} of {len(runs)} runs done, {sum(run.count_events() for run in runs)} events so far, {100 * share:.0f} % of the steps{left}"
+    return f"{done}, {sum(run.count_events() for run in runs)} events so far, {100 * share:.0f} % of the steps{left}"
 
 
 def share_of_work(runs, shares=None):

@@ -114,6 +114,12 @@ class Run:
         self.words = [f"{key}={value}" for key, value in self.settings.items()]
         self.catalogue = f"{name}/{PROGRAMS[self.program].catalogue}"
 
+    @property
+    def failed(self):
+        """Why the run cannot come to its end with these settings; empty if it can."""
+        done = Path(self.name, "done.json")
+        return read_json(done).get("failed", "") if done.exists() else ""
+
     def values(self):
         """Settings, as numbers where possible."""
         values = dict(run=self.name, folder=self.name, catalogue=self.catalogue)
@@ -405,8 +411,10 @@ class Study:
         return f"{self.common['postproc']} {command} --overwrite"
 
     def found(self, run):
-        """All numbers of a run, by the names of the commands that determine them."""
+        """All numbers of a run, by the names of the commands that determine them; of one that failed, why."""
         found = self.names(run.values())
+        if run.failed:
+            return found | {"done": Found(failed=run.failed)}
         for path in [f"{run.name}/done.json", f"{run.name}/summary.json", *(f"{run.name}/numbers/{name}.json" for name in self.numbers(run))]:
             if Path(path).exists():
                 found[Path(path).stem] = read_json(path)
@@ -423,13 +431,24 @@ class Study:
             values.append("" if value is None else f"{value:.6g}" if isinstance(value, float) else value)
         return values
 
+    def done(self):
+        """The runs but those that failed."""
+        return [run for run in self.runs.values() if not run.failed]
+
+    def failures(self):
+        """Names of the runs that failed, with the reason."""
+        return [f"{run.name}: {run.failed}" for run in self.runs.values() if run.failed]
+
     def columns(self):
         return list(dict.fromkeys(key for run in self.runs.values() for key in run.row if key not in ("run", "program", "ranks")))
 
     def start(self, run):
-        """Name and settings of a run, column by column; steps and times are those after `shorten`."""
+        """Name and settings of a run, column by column; steps and times are those after `shorten`, none of one that failed."""
+        lasting = ("steps", "time") if run.failed else ()
         others = " ".join(f"{key}={shlex.quote(value)}" for key, value in run.settings.items() if key not in run.row)
-        return [run.name] + [others if key == "settings" else run.settings.get(key, run.row.get(key, "")) for key in self.columns()]
+        return [run.name] + [
+            "" if key in lasting else others if key == "settings" else run.settings.get(key, run.row.get(key, "")) for key in self.columns()
+        ]
 
     def asked(self, name):
         """All that a table depends on except the numbers of the runs: if it changes, the table is made again."""
@@ -449,7 +468,7 @@ class Study:
     def stack(self, expression):
         """One line for each row of a table that each run has."""
         lines = []
-        for run in self.runs.values():
+        for run in self.done():
             try:
                 rows = eval(expression, dict(self.found(run)))
             except MISSING:
@@ -463,12 +482,16 @@ class Study:
     def differences(self):
         """One line for all seeds of a model: part `means`, and means with errors of the differences from the first model, seed by seed."""
         means, differences, groups, values = self.part("means"), self.part("differences"), {}, {}
-        for run in self.runs.values():
+        for run in self.done():
             key = tuple(run.row.get(column, "") for column in self.columns() if column != "seed")
             groups.setdefault(key, []).append(run)
             row = self.row(run, [*means.values(), *differences.values()])
             values[run.name] = [float(value) if value != "" else math.nan for value in row]
-        first = {run.row.get("seed"): values[run.name] for run in next(iter(groups.values()))}
+        first = next(iter(self.runs.values()))
+        first = {
+            run.row.get("seed"): values[run.name]
+            for run in groups.get(tuple(first.row.get(column, "") for column in self.columns() if column != "seed"), [])
+        }
         lines = [[c for c in self.columns() if c != "seed"] + ["seeds", *means] + [f"{name}{end}" for name in differences for end in ("", "_error")]]
         for key, runs in groups.items():
             line = [*key, len(runs)]

@@ -411,6 +411,19 @@ def test_a_study_that_is_interrupted_goes_on(study):
     assert table()["c_1"]["events"] == counted("c_1/catalogue.csv") != "0"
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_to_the_study_alone_ends_its_runs(study, number):
+    write(CHAIN.replace("1e5", "1e10"))
+    with start(study, "my.csv") as child:
+        assert child.until(lambda: list(Path("out").glob("*/catalogue.csv")))
+        time.sleep(1)
+        child.send_signal(number)
+        assert child.wait(60) == 1
+        assert "run.py: c_1: stopped, to be continued" in child.said()
+    with open("out/c_1/lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # no program works there
+
+
 def test_a_full_disk_leaves_no_wrong_numbers(study, small_disk):
     write(CHAIN.replace("0,1,1e5", "0,1-2,1e6"))
     run(study, "my.csv")
@@ -471,6 +484,33 @@ def test_tables_that_are_right(plan, work):
     assert plan("run,program,pe-series\nc,slider,{here}/pe.bin\n").runs["c"].words == [f"pe-series={work}/pe.bin"]
     assert list(plan("\ufeffrun,program\nlock,slider\n").runs) == ["lock"], "a mark of the byte order"
     assert list(plan("run,program,seed\nc_{seed},slider,4-6\n", seeds=2).runs) == ["c_4", "c_5"]
+
+
+def test_a_run_that_failed_is_no_result(study, work):
+    """Its cells are empty, curves and pages leave it out, and it is named at each start; the study has not succeeded."""
+    recipe = RECIPE + ("stacks:\n  all: sizes.sizes\nmeans:\n  n: count.catalogues[0].events\ndifferences:\n  m: count.catalogues[0].events\n"
+                       "figures:\n  sizes: {command: histograms}\npages:\n  report: {title: All}\n")
+    write(CHAIN.replace("0,1,1e5", "0,1-3,1e5"), recipe)
+    run(study, "my.csv")
+    Path("out/c_2/done.json").write_text(json.dumps({"failed": "a link is strained by 0.78"}))
+    for _ in range(2):
+        said = run(study, "my.csv", status=1).err
+        assert said.count("study.sh: 1 of 3 runs failed") == 2 and said.count(
+            "c_2: a link is strained by 0.78") == 2 and "2 of 3 runs done, 1 failed" in said
+        rows = table()
+        assert rows["c_2"] == {key: "" for key in rows["c_2"]} | {"run": "c_2", "blocks": "100", "seed": "2", "settings": rows["c_1"]["settings"]}
+        assert rows["c_1"]["events"] == counted("c_1/catalogue.csv") and rows["c_1"]["steps"] == "100000"
+        with open("out/all.csv") as lines:
+            assert {row["run"] for row in csv.DictReader(lines)} == {"c_1", "c_3"}
+        with open("out/differences.csv") as lines:
+            assert [row["seeds"] for row in csv.DictReader(lines)] == ["2"]
+        for made in "out/report.html", "out/figures/sizes.csv":
+            assert "c 1" in (text := Path(made).read_text()) and "c 2" not in text, made
+    run(study, "my.csv -n").warned("1 of 3 runs failed")
+    # Once its folder is moved away it is run again, and everything is as it should be.
+    shutil.move("out/c_2", "failed")
+    run(study, "my.csv")
+    assert table()["c_2"]["events"] == counted("c_2/catalogue.csv")
 
 
 def test_settings_are_no_code(plan):
