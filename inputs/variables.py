@@ -6,7 +6,7 @@ from pathlib import Path
 __all__ = ["defaults"]
 
 
-def defaults(preset="statistics"):
+def defaults(preset="leaky"):
     """Texts of the defaults with a preset, by name."""
     text = Path(__file__).with_name("fault.variables").read_text()
     cells = [[cell.strip() for cell in line.split("|")] for line in text.splitlines() if line.count("|") > 4]

@@ -196,7 +196,7 @@ def paper_table():
 def agreement_table():
     """The README's: the printed numbers in three faults, means of the packings."""
     slip, out = slip_shares(), [["paper", "", "", "1.07", "0.995", "15.2"]]
-    heads = {"preset slip": "slipping (`preset slip`)", "preset paper": "hardly damped (`preset paper`)", "default": "radiating (default)"}
+    heads = {"preset slip": "leaky (default)", "preset paper": "reflecting (`preset reflecting`)", "default": "absorbing (`preset absorbing`)"}
     fitted = {("preset slip", "120"): "fitted", ("preset slip", "480"): "half of them fitted", ("default", "120"): "fitted"}
     for preset, head in heads.items():
         lengths = ("120", "945") if preset == "default" else ("120", "480", "1890")
@@ -686,7 +686,7 @@ def surrogate_table():
 def nearest_table():
     """The points nearest to what is printed, at each length."""
     rows, out = paper.nearest(paper.completed(POINTS)), []
-    values, silent = paper.STATEMENTS_BY_NAME, defaults()
+    values, silent = paper.STATEMENTS_BY_NAME, defaults("absorbing")
 
     def text(row, *names):
         return ", ".join(shown(values[name].value(row)) for name in names)

@@ -91,7 +91,7 @@ UNPRINTED = {
     "loose discs": Choice({"loose": "keep"}, 0.75),
 }
 MEMORY = Value(0.3, 2, True)
-RUN = "memory=0.7 ruptures=yes"  # in each run; its series are picked with other memories
+RUN = "preset=absorbing memory=0.7 ruptures=yes"  # in each run; its series are picked with other memories
 SAMPLES = 20000
 LEARNT = 200  # numbers of each kind from which length scales are learnt
 
@@ -163,7 +163,7 @@ def numbers_of_point(postproc, folder, memory, work):
 
 def settings_in(words):
     """SETTINGS of a run of which `words` were set."""
-    there = defaults(words.get("preset", "statistics")) | words
+    there = defaults(words.get("preset", "leaky")) | words
     there = {key: there[text[2:-1]] if text in ("${mu}", "${dt}") else text for key, text in there.items()}
     there["impedance"] = "" if there["hold"] == "position" else there["impedance"]
     return {key: there[key] for key in SETTINGS}

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Faults of length 120 whose damping changes (results/damping.md), from the values of preset paper
-# on with the time step for catalogues: glued_*, whose contacts never slip and which ring after a
-# jump of the normal stress, for each viscosity and impedance; on_* and off_*, which go on for
-# 5000 time units after a viscosity of 0.05 was switched on or off. Then slip_or_exchange.py
+# Faults of length 120 whose damping changes (results/damping.md), from the values of preset
+# reflecting on with the time step of preset absorbing: glued_*, whose contacts never slip and which
+# ring after a jump of the normal stress, for each viscosity and impedance; on_* and off_*, which go
+# on for 5000 time units after a viscosity of 0.05 was switched on or off. Then slip_or_exchange.py
 # quality and switched.
 # usage: damping-states.sh BIN OUT       (BIN: folder of the programs; 3 minutes)
 set -euo pipefail
@@ -18,7 +18,7 @@ cd "$2"
 fault() { # PREFIX NAME VALUE...
   local words=()
   for ((n = 2; n < $#; n += 2)); do words+=(-var "${@:n:2}"); done
-  "$bin/lmp" -in "$inputs/fault_120.in" -log none -var prefix "$1" -var kt 0.2 "${words[@]}" </dev/null >"$1.out"
+  "$bin/lmp" -in "$inputs/fault_120.in" -log none -var prefix "$1" -var preset absorbing -var kt 0.2 "${words[@]}" </dev/null >"$1.out"
 }
 
 fault glue steps 0 mu 1000 velocity 1e-12 stress 0.029 impedance 0

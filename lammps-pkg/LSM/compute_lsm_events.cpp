@@ -134,7 +134,6 @@ void ComputeLSMEvents::set_memory()
 void ComputeLSMEvents::open_files()
 {
   const bool from_restart = !recorder->saved_state.empty();
-  progress.begin();
   clock = {update->atime, update->atimestep, update->dt};
   for (auto &one : sources.variables()) settings.parameters.push_back(std::move(one));
   const std::string problem =
@@ -334,8 +333,9 @@ void ComputeLSMEvents::finish_gather()
   if (!gather.finish()) return;
   on_rank_0(
       [this] { stream->add_block(gather.block(), [this](bigint step) { return time_of(step); }); });
-  if (comm->me == 0 && options.progress)
-    progress.show(update, gather.block().first + gather.block().count - 1, stream->drops().events);
+  if (comm->me == 0)
+    progress.show(update, screen, options.progress, gather.block().first + gather.block().count - 1,
+                  stream->drops().events);
   stop_on_failure();
 }
 

@@ -62,7 +62,7 @@ void LSMRun::command(int narg, char **arg)
   do {
     const bigint done = step - after;
     const bigint next = MIN(after + (done < 0 ? 0 : done / every + 1) * every, last);
-    input->one(fmt::format("run {} upto post no", next));
+    input->one(fmt::format("run {} upto stop {} post no", next, last));
     // not before the files of the run are claimed: another run may still be writing them
     if (earlier == REMOVE) remove_earlier();
     earlier = KEEP;

@@ -183,6 +183,10 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
     value = evaluated(LSMVariableTable::filled(table.default_of(one, now), now));
     set(one.name, "index", value);
   }
+  for (const LSMVariableTable::Ignored &never : table.ignored)
+    if (never.where.size() == 1 && never.where[0].first == one.name && !never.refused.empty() &&
+        LSMSceneVariable::expected(value, never.where[0].second).empty())
+      error->all(FLERR, "Variable {} is '{}', but {}", one.name, value, never.refused);
   const std::string expected = one.expected(value);
   if (!expected.empty())
     error->all(FLERR, "Variable {} is '{}', but must be {}", one.name, value, expected);

@@ -204,7 +204,7 @@ class Fault:
             if name != "standard":
                 continue
             sweep("force", "located", "force", steps)  # several times the run time
-            # Effect of the preset for statistics on one event, which is recorded for longer, as larger masses delay it.
+            # Effect of the time step and masses of preset absorbing on one event, which is recorded for longer, as larger masses delay it.
             saved["time"] += 24.0
             exact = self.one_event(saved, name, "located", "split", finest)
             slip = self.apart(exact.end, exact.begin)
@@ -271,9 +271,9 @@ class Fault:
 
     def start(self, one):
         """Runs inputs/fault.in."""
-        variables = dict(length=text(LENGTH), memory=text(MEMORY), massstep=0, prefix=one.prefix, loose=one.loose, dt=text(one.dt),
-                         massfloor=text(one.mass_floor), settle=round(COMPRESSION / one.dt), steps=round(one.time / one.dt), checkpoint=1000000000,
-                         overwrite="yes", thermo=100000, series="yes" if one.series else "no")
+        variables = dict(preset="absorbing", length=text(LENGTH), memory=text(MEMORY), massstep=0, prefix=one.prefix, loose=one.loose,
+                         dt=text(one.dt), massfloor=text(one.mass_floor), settle=round(COMPRESSION / one.dt), steps=round(one.time / one.dt),
+                         checkpoint=1000000000, overwrite="yes", thermo=100000, series="yes" if one.series else "no")
         one.seconds = self.run(self.inputs / "fault.in", variables, one.ranks, one.prefix).cpu
         events = self.events(f"{one.prefix}.catalogue.csv")
         one.events = events[events["t_start"] >= COMPRESSION + WARMUP]
@@ -349,8 +349,8 @@ class Fault:
         done, slow = {}, None
         for velocity, fast, steps in runs:
             name, unit = f"slow_{text(velocity)}_{text(fast)}", velocity / VELOCITY
-            variables = dict(length=text(LENGTH), prefix=name, velocity=text(velocity), steps=text(steps), series="no", location="yes",
-                             checkpoint=1000000000, overwrite="yes", thermo=100000)
+            variables = dict(preset="absorbing", length=text(LENGTH), prefix=name, velocity=text(velocity), steps=text(steps), series="no",
+                             location="yes", checkpoint=1000000000, overwrite="yes", thermo=100000)
             variables |= dict(leap="yes", fast=text(fast)) if fast else {}
             seconds = self.run(self.inputs / "fault.in", variables, 1, name).cpu
             events = done[velocity, fast] = self.events(f"{name}.catalogue.csv")

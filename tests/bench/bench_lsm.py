@@ -330,8 +330,8 @@ class Bench:
             say(f"making the default fault of length {length}, before the shear")
             shutil.rmtree(before, ignore_errors=True)
             before.mkdir()
-            self.lammps(self.most, self.lmp, INPUTS / "fault.in", dict(length=length, steps=0, prefix="fault"), "make.log", cwd=before,
-                        measured=False)
+            self.lammps(self.most, self.lmp, INPUTS / "fault.in", dict(preset="absorbing", length=length, steps=0, prefix="fault"), "make.log",
+                        cwd=before, measured=False)
         for number in self.in_rounds("causes"):
             self.ours("causes", "scene of the comparisons", length, 1, number)
             self.ours("causes", "with contacts of all discs", length, 1, number, name="_all", contacts="all")

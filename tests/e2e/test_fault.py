@@ -25,7 +25,7 @@ def particles(result):
 
 def test_fault_120(on_ranks, postproc):
     """On two ranks, from another folder, there are events, and a shear stress that friction can bear."""
-    said = run(on_ranks(2), scene("fault_120.in", steps=30000, prefix="short", location="yes"))
+    said = run(on_ranks(2), scene("fault_120.in", settle=10000, steps=35000, velocity=0.003, prefix="short", location="yes"))
     for name in "short.catalogue.csv", "short.pe.bin", "short.restart.end":
         assert Path(name).exists()
     _, events = read_catalogue("short.catalogue.csv")
@@ -71,7 +71,7 @@ def moves_as_with_new_lists(lmp, work, first, last):
         table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
         return np.array([line.split() for line in table.splitlines() if len(line.split()) == 8][-1], float)
 
-    settings = dict(checkpoint=1000000, velocity=0.002, series="no")
+    settings = dict(preset="absorbing", checkpoint=1000000, velocity=0.002, series="no")
     at_the_end("added", first, **settings)
     for at in range(first + piece, last + 1, piece):
         start = f"added{at - piece}.restart.end"
@@ -97,7 +97,7 @@ BANDS = (1.03, 0.09), (0.64, 0.14), (78, 13)
 def has_usual_statistics(lmp, postproc, seed):
     """Within 2.8 standard deviations of 10 seeds. A change of the last digits changes the events, but
     hardly ever this test: by chance once in 30 times."""
-    run(lmp, scene("fault.in", length=60, steps=300000, seed=seed, checkpoint=1000000, series="no", prefix="short"))
+    run(lmp, scene("fault.in", preset="absorbing", length=60, steps=300000, seed=seed, checkpoint=1000000, series="no", prefix="short"))
     events = read_catalogue("short.catalogue.csv")[1]
     run(postproc, "fit short.catalogue.csv --replicas 0 --no-comparison --no-picture --json fit.json")
     run(postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
@@ -145,19 +145,19 @@ def test_law(lmp):
 
 
 def test_stick_slip(lmp):
-    """The default fault, half as long as the shortest one of the paper, has stick-slip, and the measure
+    """The absorbing fault, half as long as the shortest one of the paper, has stick-slip, and the measure
     of it distinguishes a creeping one."""
 
     def regime(name, **more):
-        run(lmp, scene(length=60, steps=90000, prefix=name, **more))
+        run(lmp, scene(preset="absorbing", length=60, steps=90000, prefix=name, **more))
         found = of_run(lsm.read_series(f"{name}.pe.bin"), 3000, events=lsm.read_catalogue(f"{name}.catalogue.csv"))
         return [found[key] for key in ("regime", "saw_tooth", "time_in_events")]
 
-    word, saw_tooth, in_events = regime("default")
+    word, saw_tooth, in_events = regime("usual")
     # Seed 1 has 54 and 0.07.
     assert word == "stick-slip" and saw_tooth > 5 and in_events < 0.3
     # A disc for which the time step is too large would oscillate from step to step, with an event each time.
-    _, events = read_catalogue("default.catalogue.csv")
+    _, events = read_catalogue("usual.catalogue.csv")
     brief = (events["step_end"] - events["step_start"] <= 3) & (events["size"] >= 1e-4)
     assert not brief.any(), "the time step of the preset is unstable"
     word, saw_tooth, in_events = regime("creeping", stress=0.004)
@@ -233,7 +233,10 @@ dump_modify probe sort id
 def test_stretches(lmp, work):
     """Pieces of equal length keep the discs that they had at first, and their energies add up to PE."""
     Path("parts.in").write_text(STRETCHES.format(inputs=INPUTS))
-    run(lmp, scene(length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts", piece=5))
+    run(
+        lmp,
+        scene(preset="absorbing", length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts",
+              piece=5))
     pieces = 7  # 36 is no multiple of 5
     (steps, energy), = parts_of("p.stretches.txt")
     assert list(steps) == list(range(104, 505, 8)) and energy.shape == (len(steps), pieces, 2)
@@ -262,8 +265,8 @@ def test_energy(lmp, work):
     """Without friction and damping the springs exchange energy with motion and with the load only."""
     run(
         lmp,
-        scene(length=20, width=15, settle=200, steps=4000, viscosity=0, impedance=0, velocity=0, law="coulomb 0 0", prefix="e", extra="fault_energy",
-              sample=8))
+        scene(preset="absorbing", length=20, width=15, settle=200, steps=4000, viscosity=0, impedance=0, velocity=0, law="coulomb 0 0", prefix="e",
+              extra="fault_energy", sample=8))
     step, kinetic, approach, worked = np.loadtxt("e.energy.txt").T
     _, steps, _, pe = read_series("e.pe.bin")
     assert list(step) == list(range(200, 4201, 8))

@@ -30,7 +30,7 @@ def restart_steps(folder="."):
     return sorted(int(path.name.split(".")[2]) for path in Path(folder).glob("a.restart.*.info") if path.name.split(".")[2].isdigit())
 
 
-WORDS = [("preset", "Single", "statistics, single, paper or slip"), ("hold", "Position", "stress or position"),
+WORDS = [("preset", "Single", "leaky, reflecting or absorbing"), ("hold", "Position", "stress or position"),
          ("contacts", "ALL", "fault, all or smooth"), ("ruptures", "Yes", "no or yes"), ("leap", "on", "no or yes"),
          ("faces", "grid", "random or none"), ("seeds", "none", "random or grid"), ("series", "foo", "yes or no"), ("history", "foo", "yes or no"),
          ("overwrite", "1", "no or yes"), ("location", "true", "no or yes"), ("ledger", "true", "no or yes"), ("loose", "removed", "remove or keep"),
@@ -58,7 +58,7 @@ def test_values(lmp):
     assert len(kept) > 20 and kept <= set(info("a.restart.end.info")), kept - set(info("a.restart.end.info"))
     for name, value, was in (("seed", 8, 7), ("length", 30, 20), ("width", 20, 15), ("mass", "r3", "r2"), ("loose", "keep", "remove"),
                              ("faces", "none", "random"), ("seeds", "grid", "random"), ("linkratio", 1.05, 1), ("massfloor", 0, 0.05),
-                             ("preset", "single", "statistics"), ("settle", 50, 100), ("mu", 0.5, 0.6)):
+                             ("preset", "absorbing", "leaky"), ("settle", 50, 100), ("mu", 0.5, 0.6)):
         refused(lmp, scene(restart="a.restart.end", **{name: value}),
                 f"Variable {name} is {value}, but restart file a.restart.end was written with {name} = {was}")
     refused(lmp, scene(restart="a.restart.end", steps=300), "steps = 300, but 500 of them are done; give as many or more")

@@ -71,23 +71,36 @@ def test_whole_numbers_may_have_exponents(lmp):
     assert header("b.catalogue.csv")["checkpoint"] == "200"
 
 
-@pytest.mark.parametrize("name", ["paper", "slip"])
-def test_a_preset_is_one_line_of_defaults(lmp, name):
+def test_three_faults_by_what_happens_to_waves(lmp):
     """All values of a preset are used, but for those that are given; headers and restart files state them."""
-    line = re.search(f"^when preset {name} : (.*)$", (INPUTS / "fault.variables").read_text(), re.M)[1]
-    preset = dict(part.split() for part in line.split(", "))
-    assert {"dt", "stress", "kt", "viscosity", "impedance"} <= set(preset)
-    said = run(lmp, small(preset=name, prefix="preset"))
-    kept, stated = info("preset.restart.end.info"), header("preset.catalogue.csv")
-    assert {key: kept[key] for key in preset} == preset
-    of_law = ("kt", "stress", "impedance")
-    assert {key: stated[key] for key in of_law} == {key: preset[key] for key in of_law}
-    assert re.search(f"time step {preset['dt']} stable with any contacts: 0 particles raised", said.out)
-    run(lmp, small(preset=name, prefix="other", stress=0.04))
-    assert info("other.restart.end.info")["stress"] == "0.04" and info("other.restart.end.info")["kt"] == preset["kt"]
-    run(lmp, small(prefix="default"))
-    default = info("default.restart.end.info")
-    assert all(float(default[key]) != float(preset[key]) for key in preset)
+    common = dict(dt="0.03", steps="400", stress="0.03", viscosity="5e-4")
+    faults = dict(leaky=dict(common, kt="0.12", retardation="0.005", impedance="0.4",
+                             memory="0.3"), reflecting=dict(common, kt="0.2", retardation="0", impedance="0", memory="1"),
+                  absorbing=dict(dt="0.12", steps="400", stress="0.025", viscosity="0.05", kt="0.5", retardation="0", impedance="0.6", memory="1"))
+    for name, values in faults.items():
+        said = run(lmp, small(preset=None if name == "leaky" else name, prefix=name))
+        kept, stated = info(f"{name}.restart.end.info"), header(f"{name}.catalogue.csv")
+        assert kept["preset"] == name and {key: kept[key] for key in values} == values
+        assert {key: stated[key] for key in ("kt", "stress", "impedance")} == {key: values[key] for key in ("kt", "stress", "impedance")}
+        raised = re.search(rf"time step {values['dt']} stable with any contacts: (\d+) particles raised", said.out)[1]
+        assert (int(raised) > 0) == (name == "absorbing")
+    run(lmp, small(preset="absorbing", prefix="other", stress=0.04))
+    assert info("other.restart.end.info")["stress"] == "0.04" and info("other.restart.end.info")["kt"] == "0.5"
+
+
+@pytest.mark.parametrize("old, new", [("statistics", "absorbing"), ("paper", "reflecting"), ("slip", "leaky, the default"),
+                                      ("single", "absorbing, with dt 0.03")])
+def test_a_preset_by_its_old_name(lmp, old, new):
+    refused(lmp, small(preset=old), f"Variable preset is '{old}', but its name is {new} ")
+
+
+def test_a_run_says_how_long_it_will_take(lmp):
+    """Compression and shear together, from its first steps; the terminal only is told."""
+    with start(lmp, [*small(settle=2000000, steps=3000000), "-log", "a.log"]) as child:
+        assert child.until(lambda: " to go: " in child.said())
+        told = re.search(r"^About [\d.]+ (seconds|minutes|hours) to go: (\d+) steps of ([\d.e-]+) ms$", child.said(), re.M)
+    assert 4.5e6 < int(told[2]) < 5e6 and float(told[3]) > 0
+    assert "to go" not in Path("a.log").read_text()
 
 
 def test_an_earlier_run_is_kept_from_the_beginning(lmp):
@@ -112,7 +125,7 @@ def test_coefficients_that_the_law_does_not_use(lmp):
 
 
 @pytest.mark.parametrize("given, others, said", [
-    ({"lambda": 0.9}, {}, "Variable lambda is '0.9', but has no effect, as picker is exponential and memory is 1; leave it out"),
+    ({"lambda": 0.9}, {}, "Variable lambda is '0.9', but has no effect, as picker is exponential and memory is 0.3; leave it out"),
     ({"lambda": 0.99}, {}, "Variable lambda is '0.99', but has no effect"),
     ({"memory": 2}, {"picker": "literal"}, "Variable memory is '2', but has no effect, as picker is literal"),
     ({"impedance": 0.3}, {"hold": "position"}, "Variable impedance is '0.3', but has no effect, as hold is position"),
@@ -145,9 +158,9 @@ def test_variables_that_cannot_be_together(lmp):
 def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
     """Runs of earlier versions may have such variables, which studies give again; another value has no effect."""
     run(lmp, small(hold="position"))
-    again = scene(restart="a.restart.end", steps=500, hold="position", impedance=0.6, prefix="b", **{"lambda": 0.99})
+    again = scene(restart="a.restart.end", steps=500, hold="position", impedance=0.4, prefix="b", **{"lambda": 0.99})
     run(lmp, again)
-    assert info("b.restart.end.info")["impedance"] == "0.6"
+    assert info("b.restart.end.info")["impedance"] == "0.4"
     refused(lmp, scene(restart="a.restart.end", steps=500, impedance=0.5, prefix="c"), "Variable impedance is '0.5', but has no effect")
     run(lmp, scene(restart="a.restart.end", steps=500, hold="stress", impedance=0.5, prefix="d"))
     assert float(header("d.catalogue.csv")["impedance"]) == 0.5
@@ -155,7 +168,7 @@ def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
 
 def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     run(lmp, small())
-    assert info("a.restart.end.info")["faultviscosity"] == "0.05"
+    assert info("a.restart.end.info")["faultviscosity"] == "5e-4"
     run(lmp, scene(restart="a.restart.end", steps=500, viscosity=0.02, prefix="b"))
     assert info("b.restart.end.info")["faultviscosity"] == "0.02"
     assert header("b.catalogue.csv")["viscosity"] == "0.02"
@@ -233,7 +246,8 @@ def test_stop(lmp):
 
 
 def test_a_long_time_step_makes_another_model(lmp):
-    run(lmp, small(dt=1, settle=0, steps=0, massstep=1)).printed(r"WARNING: create_lsm_fault: time step 1 .* \d+ % heavier, above 20 %")
+    run(lmp, small(preset="absorbing", dt=1, settle=0, steps=0,
+                   massstep=1)).printed(r"WARNING: create_lsm_fault: time step 1 .* \d+ % heavier, above 20 %")
     quiet = run(lmp, small(settle=0, steps=0, prefix="b"))
     assert "heavier" not in quiet.out
 

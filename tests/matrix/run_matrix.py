@@ -32,7 +32,8 @@ HOURS = 24 * 3600  # no step takes as long
 FLAGS = f"-DCMAKE_CXX_FLAGS_RELEASE={os.environ.get('LSM_MATRIX_FLAGS', '-O1')} -DNDEBUG"
 CTEST = os.environ.get("LSM_MATRIX_CTEST", "")
 # The fault of every column: short, fast plates, with events, energies and the places of events.
-SCENE = dict(length=30, width=16, seed=3, settle=2000, steps=6000, checkpoint=3000, velocity=0.01, thermo=3000, location="yes", ledger="yes")
+SCENE = dict(preset="absorbing", length=30, width=16, seed=3, settle=2000, steps=6000, checkpoint=3000, velocity=0.01, thermo=3000, location="yes",
+             ledger="yes")
 LIBRARIES = ("libgsl-dev libfftw3-dev libfmt-dev liblzma-dev libpugixml-dev libcli11-dev nlohmann-json3-dev libhowardhinnant-date-dev "
              "libjs-dygraphs")
 # Runs on ARM and on this machine. Positions of ruptures depend on sines and logarithms of the C library.

@@ -46,11 +46,11 @@ def test_only_what_is_printed_counts():
 
 
 def test_settings_of_a_run_are_those_of_its_preset():
-    default, paper, slip = (calibrate.settings_in(words) for words in ({}, {"preset": "paper", "kt": "0.3"}, {"preset": "slip"}))
+    absorbing, reflecting, leaky = (calibrate.settings_in(words) for words in ({"preset": "absorbing"}, {"preset": "reflecting", "kt": "0.3"}, {}))
     keys = ("stress", "viscosity", "kt", "mus", "impedance", "dt", "massstep")
-    assert [default[key] for key in keys] == ["0.025", "0.05", "0.5", "0.6", "0.6", "0.12", "0.12"]
-    assert [paper[key] for key in keys] == ["0.03", "5e-4", "0.3", "0.6", "0", "0.03", "0.03"]
-    assert [slip[key] for key in keys] == ["0.03", "5e-4", "0.12", "0.6", "0.4", "0.03", "0.03"]
+    assert [absorbing[key] for key in keys] == ["0.025", "0.05", "0.5", "0.6", "0.6", "0.12", "0.12"]
+    assert [reflecting[key] for key in keys] == ["0.03", "5e-4", "0.3", "0.6", "0", "0.03", "0.03"]
+    assert [leaky[key] for key in keys] == ["0.03", "5e-4", "0.12", "0.6", "0.4", "0.03", "0.03"]
 
 
 def test_points_are_proposed_for_some_statements(work):

@@ -28,8 +28,8 @@ def runs(lmp, tmp_path_factory):
     for seed in 1, 2:
         folder = work / f"fault_24_{seed}"
         folder.mkdir()
-        run(lmp, "-in", INPUTS / "fault.in", "-var prefix fault -var length 24 -var seed", seed, "-var settle 400 -var velocity 0.005",
-            "-var steps 6000 -var ruptures yes -var history no", cwd=folder)
+        run(lmp, "-in", INPUTS / "fault.in", "-var preset absorbing -var prefix fault -var length 24 -var seed", seed,
+            "-var settle 400 -var velocity 0.005", "-var steps 6000 -var ruptures yes -var history no", cwd=folder)
     yield sorted(work.iterdir())
     shutil.rmtree(work)
 

@@ -24,12 +24,12 @@ sys.path.insert(0, str(INPUTS / "studies"))
 from study_tables import TableError, read_runs  # noqa: E402
 
 RUNS = """run,program,length,blocks,steps,ranks,settings
-one,fault,40,,150000,1,width=20 settle=500 velocity=0.01 thermo=1000
-two,fault,40,,200000,2,width=20 settle=500 velocity=0.01 thermo=1000
-short,fault,40,,6000,1,width=20 settle=500 velocity=0.01
+one,fault,40,,150000,1,preset=absorbing width=20 settle=500 velocity=0.01 thermo=1000
+two,fault,40,,200000,2,preset=absorbing width=20 settle=500 velocity=0.01 thermo=1000
+short,fault,40,,6000,1,preset=absorbing width=20 settle=500 velocity=0.01
 chain,slider,,100,20000000,,velocity=0.05 dt=0.05 warmup=0 checkpoint-interval=50000 pe-series=series.bin pe-stride=100
 """
-FAULT = "fault length=40 width=20 settle=500 velocity=0.01 location=yes "
+FAULT = "fault preset=absorbing length=40 width=20 settle=500 velocity=0.01 location=yes "
 CHAIN = "slider blocks=100 velocity=0.05 dt=0.05 warmup=0 "
 
 
@@ -326,7 +326,7 @@ def test_settings_of_several_words(studies):
     """They reach the program, also when the run is continued."""
     law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
     Path("laws.csv").write_text("run,program,length,steps,velocity,law,settings\n"
-                                f"l,fault,40,3000,1e-3,'{law}',width=20 settle=500 leap=yes fast=0.01 'leaping=slip 1.5 grow 60'\n")
+                                f"l,fault,40,3000,1e-3,'{law}',preset=absorbing width=20 settle=500 leap=yes fast=0.01 'leaping=slip 1.5 grow 60'\n")
     studies("laws", "checkpoint=1000 l/done.json", table="laws.csv")
     head = header("laws/l/fault.catalogue.csv")
     assert head["law"] == law and head["leap"].startswith("fast 0.01 slip 1.5 ") and " grow 60 " in head["leap"], head
@@ -405,7 +405,7 @@ def test_esys(studies):
 
 def test_slurm(studies, work):
     Path("runs.csv").write_text("run,program,length,blocks,seed,steps,settings\n"
-                                "fault_{seed},fault,40,,1-2,150000,width=20 settle=500 velocity=0.01\n"
+                                "fault_{seed},fault,40,,1-2,150000,preset=absorbing width=20 settle=500 velocity=0.01\n"
                                 "chain,slider,,100,1,20000000,velocity=0.05 warmup=0\n")
 
     def queued(state, job=None):

@@ -25,7 +25,7 @@ from progress import RunProgress  # noqa: E402
 from study_tables import Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
-FAULT = "f_{seed},fault,24,,1,2000,width=20 settle=100 velocity=0.02 stress=0.003\n"
+FAULT = "f_{seed},fault,24,,1,2000,preset=absorbing width=20 settle=100 velocity=0.02 stress=0.003\n"
 CHAIN = "run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1,1e5,velocity=0.05 warmup=0\n"
 RECIPE = "numbers:\n  count: count {catalogue}\n  sizes: count {catalogue} --size 1e-3\ntable:\n  events: count.catalogues[0].events\n"
 # Records of Snakemake, and locks
@@ -120,7 +120,7 @@ def test_other_settings_are_refused_and_nothing_is_lost(study):
         refused(study, "my.csv shorten=2", said, but=NOTES)
     assert not Path("out/table.csv").exists()
     # The order of columns and settings does not count.
-    write("settings,steps,seed,length,program,run\nstress=0.003 velocity=0.02 settle=100 width=20,2000,1,24,fault,f_1\n")
+    write("settings,steps,seed,length,program,run\nstress=0.003 velocity=0.02 settle=100 width=20 preset=absorbing,2000,1,24,fault,f_1\n")
     run(study, "my.csv shorten=2")
     assert table()["f_1"]["steps"] == "1000"
     write(HEAD + FAULT)
