@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The three faults beside each other: what the article says of them, from the published catalogues and the CSV files beside this file. †
 
-faults.py                  writes values.csv, the CSV files of the published catalogues, and their figures
+faults.py POSTPROC                  writes values.csv, the CSV files of the published catalogues, and all figures
+faults.py publish POSTPROC RUN...   of runs (folders FAULT_LENGTH_PACKING): catalogue and ruptures into faults; those of length 120 are picked again,
+                                 into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this
 
 Leaky: soft contacts, and plates that let part of the waves out. Reflecting: plates that reflect, hardly any damping. Absorbing:
 blocks that take up waves. All rates are of 1000 time units; errors are standard errors over packings, of one packing those of ten
@@ -10,21 +12,28 @@ parts of its time. A drop counts as slip if its excess (lsm.slip) is above 0.5.
 """
 import functools
 import math
-import re
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+from scipy.stats import gamma as gamma_law
 
 FOLDER = Path(__file__).resolve().parent
-sys.path.insert(0, str(FOLDER.parent / "python"))
+sys.path[:0] = [str(FOLDER.parent / part) for part in ("python", "inputs/studies")]
 import lsm  # noqa: E402
 import values  # noqa: E402
-from lsm import LOADING, slip  # noqa: E402
+import slip_or_exchange  # noqa: E402
+from lsm import LOADING, slip, summary  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
-from lsm.tables import write_table  # noqa: E402
+from lsm.tables import memory_of, read, write_table  # noqa: E402
+from publish import compressed, publish  # noqa: E402
 from values import Value  # noqa: E402
 
 LENGTHS = (120, 240, 480, 945, 1440, 1890)
@@ -48,7 +57,7 @@ class Run(NamedTuple):
     @property
     def time(self):
         """Time counted, in 1000 units."""
-        return (self.events["t_end"].max() - LOADING) / 1000
+        return float(self.events.header.get("time_span", self.events["t_end"].max() - LOADING)) / 1000
 
     def number(self, key):
         return float(self.events.header[key])
@@ -116,7 +125,7 @@ def rates():
     for fault in FAULTS:
         for length in LENGTHS:
             every, worked = runs_of(fault, length), runs_of(fault, length, column="friction_work")
-            row = dict(fault=fault, length=length, packings=len(every), time=sum(run.time for run in every), packings_slip=len(worked))
+            row = dict(fault=fault, length=length, packings=len(every), time=float(sum(run.time for run in every)), packings_slip=len(worked))
             for name, runs, measure in ("drops", every, drops), ("slips", worked, slips):
                 for least in SIZES:
                     row[f"{name}_{least:g}"], row[f"{name}_{least:g}_error"] = over(runs, lambda run: measure(run, least))
@@ -162,7 +171,352 @@ def rates_figure(base=FOLDER / "rates"):
     script += "set title 'slips of 0.1 and more'\nset key top left\n"
     script += panel((2, column["slips_0.1"], column["slips_0.1_error"]), "1.5*x/120 w l lw 1 dt 3 lc rgb '#666666' t 'in proportion to the length'")
     draw(base, script + "unset multiplot\n", 1000, 480)
+
+
+# ---- series picked again
+
+PICKED = FOLDER / "picked.csv"
+MEMORIES = (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 4.0)
+SMALLEST = ("1e-4", "3e-4", "1e-3", "3e-3")
+SHORTEST = (0.02, 0.05, 0.1, 0.2)  # times that are left out, over the mean
+RANGE = "1e-4:1e-1"
+USUAL = 0.00025  # velocity of a plate
+
+
+def picked_again(postproc, pe, dt, memory, path):
+    """Picks a series, with times from its beginning."""
+    slip_or_exchange.write_series(path.with_suffix(".bin"), pe, dt)
+    subprocess.run([postproc, "pick", path.with_suffix(".bin"), "-o", path, "--memory-time", str(memory)], check=True, capture_output=True)
+    path.with_suffix(".bin").unlink()
+    return path
+
+
+def rows_of_run(postproc, folder):
+    """Rows of picked.csv of a run: of each memory, and with what the loading lacks if its plates are slow."""
+    header = lsm.read_catalogue(folder / "fault.catalogue.csv").header
+    series, events = lsm.read_series(folder / "fault.pe.bin"), lsm.read_catalogue(folder / "fault.catalogue.csv")
+    events = events[events["t_start"] >= LOADING]
+    own, velocity, start = round(memory_of(header), 3), float(header["velocity"]), series["time"][0]
+    power = (events["friction_total"][-1] - events["friction_total"][0]) / (events["t_end"][-1] - events["t_end"][0])
+    lacking = power * (USUAL / velocity - 1)
+    begin, span, rows = LOADING - start, (series["time"][-1] - LOADING) / 1000, []
+    with tempfile.TemporaryDirectory() as work:
+        kinds = [(memory, ramp) for ramp in ((0.0, lacking) if lacking > 0 else (0.0,)) for memory in sorted({*MEMORIES, own})]
+        paths = [
+            picked_again(postproc, series["pe"] + ramp * (series["time"] - start), float(header["dt"]), memory,
+                         Path(work) / f"{n}.csv") for n, (memory, ramp) in enumerate(kinds)
+        ]
+
+        def measured(**options):
+            return summary.rows_of(postproc, paths, SMALLEST, [RANGE], begin=begin, **options)
+
+        fits = [("likelihood", shortest, measured(shortest=shortest)) for shortest in (0.0, *SHORTEST)]
+        fits.append(("least-squares", 0.0, measured(method="least-squares")))
+        for n, ((memory, ramp), path) in enumerate(zip(kinds, paths)):
+            events = lsm.read_catalogue(path)
+            counts = {
+                least: np.histogram(events["t_start"][events["size"] >= least], PARTS, (begin, begin + 1000 * span))[0] * PARTS / span
+                for least in SIZES
+            }
+            row = dict(run=folder.name, fault=folder.name.split("_")[0], length=float(header["length"]), packing=header["seed"], velocity=velocity,
+                       own_memory=own, memory=memory, ramp=ramp, time=span)
+            for least, found in counts.items():
+                row |= {f"rate_{least:g}": np.mean(found), f"rate_{least:g}_error": np.std(found, ddof=1) / math.sqrt(PARTS)}
+            row |= {"exponent": fits[0][2][n][f"exponent_{RANGE}"]}
+            for method, shortest, some in fits:
+                name = "density" if method == "least-squares" else f"{shortest:g}"
+                for least in SMALLEST:
+                    row |= {f"{key}_{name}_{least}": some[n][f"{key}_{float(least):g}"] for key in ("gamma", "gamma_error", "B")}
+            rows.append(row)
     return rows
+
+
+def pick_again(postproc, *folders):
+    rows = read(PICKED) if PICKED.exists() else []
+    new = [row for folder in folders for row in rows_of_run(postproc, folder)]
+    rows = [row for row in rows if row["run"] not in {one["run"] for one in new}] + new
+    write_table(PICKED, [
+        "Series picked again (faults.py publish): ramp, a steady rise of PE in a time unit that was added to it; rates in 1000 time units;",
+        "gamma, B: by likelihood of the times above so many means, or by least squares on their density, of events of at least a size"
+    ], rows)
+
+
+# ---- ruptures by what friction takes up
+
+# A place slips while friction takes up more than that of so many plate velocities: waves move the faces past each other without it.
+SLIPPING = 50
+TESTS = tuple((slipping, merged) for slipping, merged in ((20, 1), (50, 1), (100, 1), (50, 4)))
+GAP, PAUSE = 1, 3  # places, intervals, as of compute lsm/events
+SMALLEST_RUPTURE = 1e-3
+TESTED = FOLDER / "ruptures_tests.csv"
+
+
+class History(NamedTuple):
+    """Slip and work of each place in consecutive intervals from LOADING on."""
+    header: dict
+    interval: np.ndarray  # of each record
+    slip: np.ndarray
+    work: np.ndarray
+    span: float  # of one interval
+    count: int  # of intervals
+
+
+def history_of(folder):
+    stored = lsm.read_slip(folder / "fault.slip.bin")
+    dt, steps = float(stored.header["dt"]), int(stored.header["interval"])
+    time = stored["step_begin"] * dt + float(stored.header["time0"]) - float(stored.header["step0"]) * dt
+    stored = stored[(stored["step_end"] > stored["step_begin"]) & (time >= LOADING)]
+    # Records of several intervals, in which no place moves as fast as five plate velocities, hold no rupture.
+    count = int((stored["step_end"][-1] - stored["step_begin"][0]) // steps)
+    interval = np.asarray((stored["step_begin"] - stored["step_begin"][0]) // steps)
+    one = np.asarray(stored["step_end"] - stored["step_begin"]) == steps
+    return History(
+        lsm.read_catalogue(folder / "fault.catalogue.csv").header, interval[one],
+        np.asarray(stored["slip"])[one],
+        np.asarray(stored["work"])[one], steps * dt, count)
+
+
+def ruptures_in(history, slipping=SLIPPING, merged=1):
+    """Connected sets of slipping places: arrays of start and end (time from LOADING on), work, slip, first place and number of places.
+
+    merged: intervals that are taken together
+    """
+    number = history.interval // merged
+    begins = np.flatnonzero(np.diff(number, prepend=-1))
+    number, span, bins = number[begins], history.span * merged, history.work.shape[1]
+    work, slip = (np.add.reduceat(one, begins, axis=0) for one in (history.work, history.slip))
+    friction = 0.6 * float(history.header["stress"]) * 2 * float(history.header["velocity"]) * span  # of the plates' slip, at one place
+    record, place = np.nonzero(work > slipping * friction)
+    if not len(record):
+        return (np.zeros(0),) * 6
+    near = cKDTree(np.column_stack([place, number[record] * ((GAP + 1) / PAUSE)]),
+                   boxsize=[bins, 0]).query_pairs(GAP + 1.001, p=np.inf, output_type="ndarray")
+    count, of = connected_components(coo_matrix((np.ones(len(near), bool), near.T), shape=(len(record), len(record))), directed=False)
+    sums = [np.bincount(of, one[record, place], count) for one in (work, slip)]
+    order = np.lexsort((place, of))
+    place, first = place[order], np.flatnonzero(np.diff(of[order], prepend=-1))
+    ahead = np.append(place[1:], 0) - place  # to the next place of the rupture, from its last one round the fault to its first
+    last = np.append(first[1:], len(place)) - 1
+    ahead[last] = place[first] + bins - place[last]
+    longest = np.maximum.reduceat(ahead, first)
+    start = np.array([(place[a:z + 1][np.argmax(ahead[a:z + 1])] + m) % bins for a, z, m in zip(first, last, longest)])
+    begin, end = np.full(count, np.inf), np.zeros(count)
+    np.minimum.at(begin, of, number[record] * span)
+    np.maximum.at(end, of, (number[record] + 1) * span)
+    return begin, end, *sums, start, np.maximum(1, bins - longest + 1)
+
+
+def find_ruptures(*folders):
+    tests = [row for row in (read(TESTED) if TESTED.exists() else []) if row["run"] not in {folder.name for folder in folders}]
+    for folder in folders:
+        history = history_of(folder)
+        name, length, time = folder.name, float(history.header["length"]), history.count * history.span / 1000
+        for slipping, merged in TESTS if length == 120 else ((SLIPPING, 1),):
+            begin, end, work, slip, start, places = found = ruptures_in(history, slipping, merged)
+            row = dict(run=name, fault=name.split("_")[0], length=length, packing=history.header["seed"], slipping=slipping, merged=merged, time=time,
+                       share=work.sum() / history.work.sum())
+            for least in SIZES:
+                row |= {f"rate_{least:g}": np.sum(work >= least) / time, f"share_{least:g}": work[work >= least].sum() / history.work.sum()}
+            tests.append(row)
+            if (slipping, merged) == (SLIPPING, 1):
+                kept = np.flatnonzero(work >= SMALLEST_RUPTURE)
+                kept = kept[np.argsort(begin[kept], kind="stable")]
+                lines = ["# lsm-catalogue 1\n", *(f"# {key} = {value}\n" for key, value in history.header.items())]
+                lines += [f"# events = ruptures by friction\n# slipping_work = {SLIPPING}\n# time_span = {1000 * time:.9g}\n"]
+                lines += [f"# thinned = sizes below {SMALLEST_RUPTURE:g} left out\nevent_id,t_start,t_end,size,slip,x_begin,rupture_length\n"]
+                lines += [
+                    f"{n},{LOADING + begin[k]:.7g},{LOADING + end[k]:.7g},{work[k]:.6g},{slip[k]:.6g},{start[k]},{places[k]}\n"
+                    for n, k in enumerate(kept, 1)
+                ]
+                (FOLDER / f"faults/{name}.slips.csv.xz").write_bytes(compressed("".join(lines)))
+    tests.sort(key=lambda row: (row["fault"], float(row["length"]), row["run"], float(row["slipping"]), float(row["merged"])))
+    write_table(TESTED, [
+        "Ruptures of at least a work of friction, in 1000 time units, and their share of all work: found with other thresholds (in",
+        "velocities of the plates) and with intervals merged (faults.py publish)"
+    ], tests)
+
+
+# ---- bursts of single discs
+
+BURSTS = FOLDER / "bursts.csv"
+STRETCH, SHORT = 250.0, 2.0  # time units: of the stretches, and period below which motion is that of single discs
+LINE = 6  # frequencies on each side of a line that belong to it, in a Hann window
+
+
+def bursts_of(postproc, folder):
+    """A row of bursts.csv: stretches of the series of a run in which short periods have more than half of the variance of dPE/dt."""
+    series, catalogue = lsm.read_series(folder / "fault.pe.bin"), lsm.read_catalogue(folder / "fault.catalogue.csv")
+    events = catalogue[(catalogue["size"] >= 1e-4) & (catalogue["t_start"] >= LOADING)]
+    dt = float(catalogue.header["dt"])
+    samples, first = round(STRETCH / dt), int(np.searchsorted(series["time"], LOADING))
+    frequency, window = np.fft.rfftfreq(samples, dt), np.hanning(samples)
+    short, found = frequency > 1 / SHORT, []
+    for begin in range(first, len(series) - samples, samples):
+        change = np.diff(series["pe"][begin:begin + samples + 1])
+        power = np.abs(np.fft.rfft((change - change.mean()) * window))**2 * (frequency > 0)
+        line = int(np.argmax(power * short))
+        start = float(series["time"][begin])
+        number = np.sum((events["t_start"] >= start) & (events["t_start"] < start + STRETCH))
+        found.append((start, number * 1000 / STRETCH, power[short].sum() / power.sum(), power[line - LINE:line + LINE + 1].sum() / power[short].sum(),
+                      1 / frequency[line]))
+    start, rate, share, line, period = np.array(found).T
+    noisy = share > 0.5
+    of = np.minimum((events["t_start"] - start[0]) // STRETCH, len(start) - 1).astype(int)
+    quiet = ~noisy[of]
+    times = np.diff(events["t_start"])
+    calm = quiet[1:] & (np.diff(np.cumsum(noisy)[of]) == 0)  # no burst between the two drops
+    lines = (folder / "fault.catalogue.csv").read_text().splitlines(keepends=True)
+    kept = set(np.asarray(events["event_id"])[quiet])
+    with tempfile.TemporaryDirectory() as work:
+        path = Path(work) / "quiet.csv"
+        path.write_text("".join(line for line in lines if not line[0].isdigit() or int(line.split(",", 1)[0]) in kept))
+        rows = summary.rows_of(postproc, [folder / "fault.catalogue.csv", path], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
+    return dict(run=folder.name, fault=folder.name.split("_")[0], packing=catalogue.header["seed"], stretches=len(start), bursts=int(noisy.sum()),
+                one_line=int(np.sum(noisy & (line > 0.5))), share_median=np.median(share), share_largest=share.max(),
+                rate_in_bursts=np.mean(rate[noisy]) if noisy.any() else math.nan, rate_else=np.mean(rate[~noisy]), rate_largest=rate.max(),
+                period_largest=period[np.argmax(rate)], line_largest=line[np.argmax(rate)], gamma=rows[0]["gamma_0.0001"],
+                gamma_else=gamma_law.fit(times[calm], floc=0)[0], B_else=gamma_law.fit(times[calm], floc=0)[2], exponent=rows[0][f"exponent_{RANGE}"],
+                exponent_else=rows[1][f"exponent_{RANGE}"])
+
+
+def find_bursts(postproc, *folders):
+    rows = [row for row in (read(BURSTS) if BURSTS.exists() else []) if row["run"] not in {folder.name for folder in folders}]
+    rows += [bursts_of(postproc, folder) for folder in folders]
+    write_table(BURSTS, [
+        "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt, one_line: one line",
+        "more than half of that; share: of these periods; rates of drops >= 1e-4 in 1000 time units; else: without bursts (faults.py publish)"
+    ], rows)
+
+
+def publish_runs(postproc, *names):
+    folders = [Path(name).resolve() for name in names]
+    slow = [folder for folder in folders if "slow" in folder.name]
+    full = [folder for folder in folders if folder not in slow]
+    (FOLDER / "faults").mkdir(exist_ok=True)
+    for folder in full:
+        publish(folder / "fault.catalogue.csv", FOLDER / f"faults/{folder.name}.catalogue.csv.xz")
+    find_ruptures(*full)
+    pick_again(postproc, *(folder for folder in folders if "_120_" in folder.name))
+    find_bursts(postproc, *(folder for folder in full if "_120_" in folder.name))
+
+
+# ---- figures of what was picked again
+
+
+def of_picked(fault, velocity=USUAL, ramp=False, memory=None, packings=("11", "12", "13")):
+    """Rows of picked.csv; memory: by default each run's own."""
+    return [
+        row for row in read(PICKED) if row["fault"] == fault and float(row["velocity"]) == velocity and
+        (float(row["ramp"]) > 0) == ramp and float(row["memory"]) == (memory or float(row["own_memory"])) and row["packing"] in packings
+    ]
+
+
+def mean_of(rows, name, error=None):
+    """Mean over rows that have this number, with its standard error, and how many these are."""
+    found = [(float(row[name]), float(row[error]) if error else math.nan) for row in rows if row[name]]
+    return (*(mean_and_error(*zip(*found)) if found else (math.nan, math.nan)), len(found))
+
+
+def estimators():
+    """Gamma and B of two faults over smallest size, memory and smallest time: a row for each, of both estimators."""
+    rows = []
+    for fault in ("leaky", "reflecting"):
+        own = of_picked(fault)
+        cells = [("smallest size", float(least), own, name, least) for name in ("0", "density") for least in SMALLEST]
+        cells += [("memory", memory, of_picked(fault, memory=memory), name, "1e-4") for name in ("0", "density") for memory in MEMORIES]
+        cells += [("smallest time", shortest, own, f"{shortest:g}", "1e-4") for shortest in (0, *SHORTEST)]
+        for over_what, x, some, name, least in cells:
+            gamma, error, n = mean_of(some, f"gamma_{name}_{least}")
+            scale, scale_error, _ = mean_of(some, f"B_{name}_{least}")
+            rows.append(
+                dict(fault=fault, over=over_what, x=x, estimator="density" if name == "density" else "likelihood", gamma=gamma, gamma_error=error,
+                     B=scale, B_error=scale_error, n=n))
+    return rows
+
+
+def estimators_figure(base=FOLDER / "estimators"):
+    rows = estimators()
+    write_table(f"{base}.csv", [
+        "Gamma and B (delta 1) of drops of at least 1e-4 at length 120, packings 11 to 13: by likelihood of the times, or least squares on",
+        "the density of their logarithms; smallest time: over the mean; n: packings in which the fit has one solution (faults.py)"
+    ], rows)
+    script = """set key Left reverse
+set bars small
+set yrange [-0.6:2.6]
+set ylabel 'gamma'
+row(name, over, way, y) = strcol(1) eq name && strcol(2) eq over && strcol(4) eq way ? y : NaN
+set multiplot layout 1,3
+"""
+    names = (("leaky", 2, 7, 6), ("reflecting", 6, 5, 4))
+    for over_what, label, axis, key in (("smallest size", "smallest drop counted",
+                                         "set logscale x\nset xrange [0.7e-4:5e-3]\nset xtics ('10^{-4}' 1e-4, '10^{-3}' 1e-3)", ""),
+                                        ("memory", "memory of the picker (time units)", "set xrange [0.08:5]\nset xtics (0.1, 0.3, 1, 3)",
+                                         ""), ("smallest time", "smallest time fitted, over the mean",
+                                               "unset logscale x\nset xrange [-0.02:0.22]\nset xtics 0.1", "top left samplen 2")):
+        bars, curves = [], ["0.995 w l lw 2 dt 2 lc rgb '#666666' " + ("t 'paper'" if key else "notitle")]
+        for name, lc, full, empty in names:
+            for way, pt, text in ("likelihood", full, "likelihood"), ("density", empty, "least squares"):
+                title = f"t '{name}, {text}'" if key else "notitle"
+                if over_what == "smallest time" and way == "density":
+                    curves.append(f"keyentry w lp lc {lc} lw 0.8 dt 3 pt {pt} ps point {title}")
+                    continue
+                where = f"table u (row('{name}','{over_what}','{way}',$3))"
+                curves += [f"{where}:5 w lp lc {lc} lw 0.8 dt {1 if pt == full else 3} pt {pt} ps point {title}"]
+                bars.append(f"{where}:5:6 w yerrorbars lc {lc} pt {pt} ps 0 notitle")
+        script += f"{axis}\nset xlabel '{label}'\n" + (f"set key {key}\n"
+                                                       if key else "unset key\n") + "plot " + ", ".join(bars + curves) + "\nunset ylabel\n"
+    draw(base, script + "unset multiplot\n", 1200, 460)
+
+
+# ---- ruptures: rates over size
+
+RUPTURE_SIZES = tuple(10**(k / 4) for k in range(-12, 3))
+RUPTURE_PLACES = (1, 2, 3, 4, 5, 7, 10, 14, 20, 28, 40, 56, 80, 113)
+SHOWN = (120, 480, 1890)  # lengths in the figure
+
+
+def per_length(run, chosen):
+    rate, error = rate_of(run, chosen)
+    return rate * 120 / run.length, error * 120 / run.length
+
+
+def rupture_rows():
+    rows = []
+    for fault in FAULTS:
+        for length in LENGTHS:
+            runs = runs_of(fault, length, "slips")
+            for what, column, least in [("work", "size", x) for x in RUPTURE_SIZES] + [("places", "rupture_length", x) for x in RUPTURE_PLACES]:
+                if runs and least <= length:
+                    # ruptures that are published have a work of 1e-3; all of them that are longer than a few places do
+                    rate, error = over(
+                        runs, lambda run: per_length(run, (run.events[column] >= least * (1 - 1e-9)) & (run.events["size"] >= SMALLEST_RUPTURE)))
+                    rows.append(dict(fault=fault, length=length, over=what, x=least, rate=rate, error=error, packings=len(runs)))
+    return rows
+
+
+def ruptures_figure(base=FOLDER / "ruptures"):
+    rows = rupture_rows()
+    write_table(f"{base}.csv", [
+        "Ruptures, in 1000 time units and 120 of the length, of at least a work of friction, or of at least so many places and a work of",
+        "0.001 (faults.py)"
+    ], rows)
+    script = """set key bottom left Left reverse
+set bars small
+set logscale xy
+set yrange [0.01:100]
+set format y '10^{%L}'
+row(name, over, y) = strcol(1) eq name && $2 == 120 && strcol(3) eq over && $5 > 0 ? y : NaN
+set ylabel 'ruptures of at least this in 1000 time units'
+set multiplot layout 1,2
+"""
+    for what, label, axis in (("work", "work of friction in the rupture", "set xrange [0.8e-3:1]\nset format x '10^{%L}'"),
+                              ("places", "length of the rupture", "set xrange [0.8:30]\nset xtics (1, 2, 5, 10, 20)\nset format x '%g'")):
+        curves = []
+        for n, (name, lc, pt) in enumerate(STYLES):
+            where = f"table u (row('{name}','{what}',$4)*{1 + 0.03 * (n - 1)})"
+            curves += [f"{where}:5:6 w yerrorbars lc {lc} pt {pt} ps point t '{name}'", f"{where}:5 w l lc {lc} lw 0.8 notitle"]
+        script += f"{axis}\nset xlabel '{label}'\nplot {', '.join(curves)}\n"
+    draw(base, script + "unset multiplot\n", 1000, 480)
 
 
 # ---- the numbers of sentences
@@ -178,12 +532,148 @@ def rate_values():
                     yield Value(f"rate.{name}.{fault}.{length}.{least:g}", *value, "1/1000", len(runs), sources(runs))
 
 
-def all_values():
-    return [*rate_values()]
+def fit_values(postproc):
+    """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, and over those that nobody fitted."""
+    found = {}
+    for fault in FAULTS:
+        every = [run for length in LENGTHS for run in runs_of(fault, length)]
+        rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
+        for run, row in zip(every, rows):
+            for kind in ("all", *(["held_out"] if run.packing > 10 else [])):
+                found.setdefault((kind, fault, run.length), []).append((run, row))
+    for (kind, fault, length), some in found.items():
+        source, name = sources(run for run, _ in some), f"{kind}.{fault}.{length}"
+        for key, column, error in (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
+                                   ("B", "B_0.0001", None), ("mean_time", "mean_time_0.0001", None)):
+            cells = [row for _, row in some if row[column]]
+            if cells:
+                yield Value(f"{key}.{name}", *mean_of(cells, column, error)[:2], "time" if key in ("B", "mean_time") else "", len(cells), source)
+                for what, value in ("least", min), ("most", max):
+                    yield Value(f"{key}.{name}.{what}", value(float(row[column]) for row in cells), math.nan, "", len(cells), source)
+    # the project's own tolerances, of single runs
+    printed = {"exponent": (f"exponent_{RANGE}", 1.07, 0.07), "gamma": ("gamma_0.0001", 0.995, 0.1)}
+    for fault in FAULTS:
+        rows = [row for (kind, of, _), some in found.items() if (kind, of) == ("all", fault) for _, row in some]
+        met = {key: [abs(float(row[column]) - value) <= by for row in rows] for key, (column, value, by) in printed.items()}
+        met["B"] = [abs(math.log(float(row["B_0.0001"]) / 15.21)) <= 0.2 for row in rows]
+        for key, some in {**met, "together": [all(three) for three in zip(*met.values())]}.items():
+            yield Value(f"within.{key}.{fault}", sum(some), math.nan, "", len(rows), "values.py")
+        yield Value(f"within.runs.{fault}", len(rows))
+
+
+def velocity_values():
+    """Rates at half the velocity of the plates, as picked and with the loading that lacks, and over that at the full velocity."""
+    for fault in FAULTS:
+        kinds = {
+            "full": of_picked(fault, packings=("1", "4")), "slow": of_picked(fault, USUAL / 2, packings=("1", "4")),
+            "loaded": of_picked(fault, USUAL / 2, True, packings=("1", "4"))
+        }
+        kinds = {
+            kind: [row for row in rows if kind != "full" or row["run"] in ("leaky_120_4", "reflecting_120_4", "absorbing_120_1")]
+            for kind, rows in kinds.items()
+        }
+        for least in SIZES if all(kinds.values()) else ():
+            rate = {kind: (float(rows[0][f"rate_{least:g}"]), float(rows[0][f"rate_{least:g}_error"])) for kind, rows in kinds.items()}
+            full, error = rate["full"]
+            for kind, (value, own) in rate.items():
+                yield Value(f"velocity.{kind}.{fault}.{least:g}", value, own, "1/1000", 1, "picked.csv")
+                if kind != "full":
+                    yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", value / full, value / full * math.hypot(own / value, error / full), "", 1,
+                                "picked.csv")
+
+
+def estimator_values():
+    rows = estimators()
+    for fault in ("leaky", "reflecting"):
+        for over_what in "smallest size", "memory", "smallest time":
+            for way in ("likelihood", "density") if over_what != "smallest time" else ("likelihood",):
+                some = [row for row in rows if (row["fault"], row["over"], row["estimator"]) == (fault, over_what, way)]
+                for key in "gamma", "B":
+                    cells = [row[key] for row in some if math.isfinite(row[key])]
+                    for what, value in ("least", min), ("most", max):
+                        yield Value(f"estimator.{key}.{fault}.{over_what.replace(' ', '_')}.{way}.{what}", value(cells), math.nan, "", len(cells),
+                                    "estimators.csv")
+
+
+def burst_values():
+    for row in read(BURSTS):
+        for key in ("stretches", "bursts", "one_line", "share_median", "share_largest", "rate_in_bursts", "rate_else", "rate_largest",
+                    "period_largest", "gamma", "gamma_else", "exponent", "exponent_else"):
+            if row[key]:
+                yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), math.nan, "", 1, "bursts.csv")
+
+
+def times_at_places(run, least):
+    """Times between ruptures of at least a work at each place of a fault."""
+    of = run.events[run.events["size"] >= least]
+    starts = [[] for _ in range(run.length)]
+    for event in of:
+        for place in range(int(event["x_begin"]), int(event["x_begin"] + event["rupture_length"])):
+            starts[place % run.length].append(float(event["t_start"]))
+    return np.concatenate([np.diff(np.sort(one)) for one in starts])
+
+
+def rupture_values():
+    """Rates of ruptures in 1000 time units and 120 of the length, times between them at one place, and how their threshold decides."""
+    for fault in FAULTS:
+        for length in LENGTHS:
+            runs = runs_of(fault, length, "slips")
+            for least in SIZES[1:] if runs else ():
+                value = over(runs, lambda run: per_length(run, run.events["size"] >= least))
+                yield Value(f"ruptures.rate.{fault}.{length}.{least:g}", *value, "1/1000/120", len(runs), sources(runs))
+            for least in (2, 5, 10) if runs else ():
+                value = over(runs, lambda run: per_length(run, run.events["rupture_length"] >= least))
+                yield Value(f"ruptures.rate.{fault}.{length}.places_{least}", *value, "1/1000/120", len(runs), sources(runs))
+            if runs:
+                largest = max(float(run.events["rupture_length"].max()) for run in runs)
+                yield Value(f"ruptures.longest.{fault}.{length}", largest, math.nan, "length", len(runs), sources(runs))
+                times = [times_at_places(run, 1e-2) for run in runs]
+                for key, measure in ("mean", np.mean), ("variation", lambda x: np.std(x) / np.mean(x)), ("below_tenth",
+                                                                                                         lambda x: np.mean(x < np.mean(x) / 10)):
+                    yield Value(f"place.{key}.{fault}.{length}", *mean_and_error([measure(one) for one in times]), "time" if key == "mean" else "",
+                                len(runs), sources(runs))
+    tests = read(TESTED)
+    for fault in FAULTS:
+        of = [row for row in tests if row["fault"] == fault and float(row["length"]) == 120]
+        for slipping, merged in sorted({(row["slipping"], row["merged"]) for row in of}):
+            some = [row for row in of if (row["slipping"], row["merged"]) == (slipping, merged)]
+            for key in ("share", *(f"{name}_{least:g}" for name in ("rate", "share") for least in SIZES[1:])):
+                yield Value(f"ruptures.test.{fault}.{float(slipping):g}.{float(merged):g}.{key}",
+                            *mean_of(some, key)[:2], "", len(some), "ruptures_tests.csv")
+
+
+def budget_values():
+    """Work of friction in 1000 time units over what the plates put in, if all shear stress is friction's, and the share of drops >= 0.1."""
+    for fault in FAULTS:
+        for length in LENGTHS:
+            runs = runs_of(fault, length, column="friction_work")
+
+            def budget(run):
+                total = run.events["friction_total"]
+                return float(total[-1] - total[0]) / run.time, math.nan
+
+            def large(run):
+                of = (run.events["size"] >= 0.1) & (excess_of(run.path) > slip.SLIP)
+                return float(np.sum(run.events["friction_work"][of])) / budget(run)[0] / run.time, math.nan
+
+            def size(run):
+                of = (run.events["size"] >= 0.1) & (excess_of(run.path) > slip.SLIP)
+                return float(np.mean(run.events["friction_work"][of])), math.nan
+
+            for key, measure in (("work", budget), ("share", large), ("mean", size)) if runs else ():
+                yield Value(f"budget.{key}.{fault}.{length}", *over(runs, measure), "energy/1000" if key == "work" else "", len(runs), sources(runs))
+
+
+def all_values(postproc):
+    return [*rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *rupture_values(), *budget_values()]
 
 
 if __name__ == "__main__":
-    if sys.argv[1:]:
+    if sys.argv[1:2] == ["publish"] and len(sys.argv) > 3:
+        sys.exit(publish_runs(*sys.argv[2:]))
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
     rates_figure()
-    values.write(all_values())
+    estimators_figure()
+    ruptures_figure()
+    values.write(all_values(sys.argv[1]))

@@ -987,8 +987,10 @@ def differing(path, rows, there=None, least=1e-6):
 
 
 def check_csv():
-    """The numbers of sentences, files of nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
-    wrong = [differing(values.TABLE, values.rows(article.all_values()))]
+    """The numbers of sentences, files of faults.py and nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
+    wrong = [differing(values.TABLE, values.rows(article.all_values(POSTPROC)))]
+    for name, made in ("rates", article.rates), ("estimators", article.estimators), ("ruptures", article.rupture_rows):
+        wrong.append(differing(FOLDER / f"{name}.csv", made()))
     rows = nature.published(POSTPROC)
     wrong += [
         differing(FOLDER / f"nature{ending}.csv", made)
