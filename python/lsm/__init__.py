@@ -42,6 +42,12 @@ class Table(np.ndarray):
         table.header = header
         return table
 
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        """A sum, or the largest of a column, is a number: json and round() take no arrays, and no integers of NumPy."""
+        if array.ndim:
+            return super().__array_wrap__(array, context)
+        return array[()] if array.dtype.kind not in "iub" else array.item()
+
     def __array_finalize__(self, other):
         self.header = getattr(other, "header", {})
 

@@ -3,7 +3,8 @@
 
     python3 -m lsm.ruptures fault.ruptures.csv --history fault.slip.bin -o BASE
 
-Of all catalogues: ruptures by length (BASE-lengths) and moment (BASE-moments), moment against length (BASE-length), drop of the total
+Of all catalogues: ruptures by length (BASE-lengths) and moment (BASE-moments), moment against length (BASE-length) with a fit for each
+label, so that runs of one model share a label, drop of the total
 PE, which the paper expects to be proportional, against moment (BASE-pe), and stress drop against moment (BASE-stress). With the slip
 history of the first catalogue's run: the slip velocity in space and time with the ruptures outlined (BASE-spacetime), lines of the
 slip along the fault (BASE-lines), and the rupture of the largest moment in detail (BASE-event); of a plane, maps of that rupture, of
@@ -12,7 +13,6 @@ its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip
 """
 import argparse
 import math
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -20,10 +20,13 @@ import numpy as np
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
 from lsm.program import add_time_window, run
+from lsm.tables import write_json
 
 COLUMNS = ["slip_moment", "rupture_length", "x_hypocentre", "x_begin", "stress_drop"]
 MOST, LARGEST = 20000, 1000  # points of a catalogue in scatter plots: beyond, the largest ones and every n-th
 FEWEST = 3  # ruptures for a fit
+FEWEST_BINS = 5  # of a rupture in fits of moment against length: shorter ones lie off the line of the others
+PARTS = 10  # of the time of each catalogue, of which one at a time is left out for the errors of fits
 MOST_ROWS, MOST_COLUMNS, MOST_OUTLINES = 700, 1000, 300  # of the picture of slip velocities
 FLAME = "set palette defined (0 '#ffffff', 1 '#fff3c4', 2 '#fdc86b', 3 '#f3883c', 4 '#c7443c', 5 '#7a1f63', 6 '#1d0b3a')\n"
 VELOCITIES = FLAME + """set cbrange [0:3]
@@ -68,6 +71,11 @@ def load(path, label=None, begin=-math.inf, end=math.inf):
 # ---- numbers by length and moment
 
 
+def time_of(one):
+    """From the first start to the last end."""
+    return one.events["t_end"].max(initial=-math.inf) - one.events["t_start"].min(initial=math.inf)
+
+
 def densities(one, column):
     """lo, hi, centre, count and density of the bins: ruptures per time, length of the fault, and length or moment.
 
@@ -75,7 +83,7 @@ def densities(one, column):
     many as its width allows.
     """
     values = one.events[column][one.events[column] > 0]
-    unit = (one.events["t_end"].max(initial=-math.inf) - one.events["t_start"].min(initial=math.inf)) * one.length
+    unit = time_of(one) * one.length
     if not len(values) or not unit > 0:
         return np.zeros((5, 0))
     if column == "slip_moment":
@@ -128,7 +136,8 @@ def density_figure(catalogues, ending, column):
 
 
 class Fit(NamedTuple):
-    """Least-squares line through logarithms, y = 10^intercept x^slope; scatters in decades; ratio: if y were proportional to x."""
+    """Least-squares line through logarithms, y = 10^intercept x^slope; scatters in decades; ratio: if y were proportional to x. error: of the
+    slope, by a jackknife over parts of the data, or as if these were independent"""
     n: int
     slope: float
     error: float
@@ -148,8 +157,8 @@ class Fit(NamedTuple):
         return f"10**({self.intercept:.15g} + {self.slope:.15g} * log10(x)) with lines lc rgb '{colour}' lw 1.6 title {title}"
 
 
-def fit(x, y):
-    """\\raises ValueError for too few different values"""
+def fit(x, y, part=None):
+    """part: number of the part of the data to which each pair belongs \\raises ValueError for too few different values"""
     x, y = np.log10(x), np.log10(y)
     n = len(x)
     spread = np.sum((x - np.mean(x))**2) if n else 0.0
@@ -158,7 +167,15 @@ def fit(x, y):
     slope = np.sum((x - np.mean(x)) * (y - np.mean(y))) / spread
     intercept = np.mean(y) - slope * np.mean(x)
     rest = np.sum((y - intercept - slope * x)**2)
-    return Fit(n, slope, math.sqrt(rest / (n - 2) / spread), intercept, math.sqrt(rest / n), 10.0**np.mean(y - x), np.std(y - x))
+    error = math.sqrt(rest / (n - 2) / spread)
+    parts = np.unique(part, return_inverse=True)[1] if part is not None else []
+    if len(parts) and parts.max() >= 2:
+        dx, dy = x - np.mean(x), y - np.mean(y)
+        count, sx, sy, sxx, sxy = (np.sum(one) - np.bincount(parts, one) for one in (np.ones(n), dx, dy, dx * dx, dx * dy))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            others = (sxy - sx * sy / count) / (sxx - sx * sx / count)
+        error = math.sqrt(np.var(others) * (len(others) - 1)) if np.isfinite(others).all() else math.nan
+    return Fit(n, slope, error, intercept, math.sqrt(rest / n), 10.0**np.mean(y - x), np.std(y - x))
 
 
 def alone(events):
@@ -194,39 +211,112 @@ def scatter(catalogues, columns):
     return rows, curves + keys
 
 
-def relations(catalogues):
+class Relation(NamedTuple):
+    """The ruptures of positive moment of all catalogues with one label."""
+    label: str
+    events: lsm.Table
+    part: np.ndarray  # of the time of each catalogue
+    isolated: np.ndarray
+    whole: np.ndarray  # the whole fault slipped
+    smallest: float  # length in the fit of the moment
+
+    @property
+    def drop(self):
+        return self.events["pe_start"] - self.events["pe_end"]
+
+    def moment_by_length(self):
+        used = ~self.whole & (self.events["rupture_length"] >= self.smallest * (1 - 1e-9))
+        return fit(self.events["rupture_length"][used], self.events["slip_moment"][used], self.part[used])
+
+    def drop_by_moment(self, isolated):
+        used = (self.drop > 0) & (self.isolated | (not isolated))
+        return fit(self.events["slip_moment"][used], self.drop[used], self.part[used])
+
+
+def relations_of(catalogues, smallest=None):
+    """A Relation for each label. smallest: length, or FEWEST_BINS bins of each catalogue"""
+    found = []
+    for label in dict.fromkeys(one.label for one in catalogues):
+        some, columns = [one for one in catalogues if one.label == label], []
+        for number, one in enumerate(some):
+            start, kept = one.events["t_start"], one.events["slip_moment"] > 0
+            begin, lasting = start.min(initial=math.inf), np.ptp(start) if len(start) else 0.0
+            part = PARTS * number + np.minimum(PARTS - 1, (start - begin) / (lasting or 1.0) * PARTS).astype(int)
+            whole = one.events["rupture_length"] > one.length * (1 - 1e-9)
+            columns.append([np.asarray(column)[kept] for column in (one.events[COLUMNS[:2] + ["pe_start", "pe_end"]], part, alone(one.events), whole)])
+        least = max(FEWEST_BINS * one.number("slip_bin", 1.0) for one in some) if smallest is None else smallest
+        found.append(Relation(label, *(np.concatenate(column) for column in zip(*columns)), least))
+    return found
+
+
+def fit_or_why(make, *words):
+    try:
+        return make(*words)
+    except ValueError as error:
+        return str(error)
+
+
+def as_json(relation, catalogues):
+    """The numbers of a label, a dict: of all its ruptures, and of the fits, null with `why` where there is none."""
+    some = [one for one in catalogues if one.label == relation.label]
+    events, unit = np.concatenate([one.events["slip_moment"] for one in some]), sum(time_of(one) * one.length for one in some)
+    row = dict(label=relation.label, catalogues=len(some), ruptures=len(events), rate=len(events) / unit if unit > 0 else math.nan,
+               moment=events.sum(), moment_rate=events.sum() / unit if unit > 0 else math.nan, largest_moment=events.max(initial=0.0),
+               longest=max(one.events["rupture_length"].max(initial=0.0) for one in some), smallest_length=relation.smallest)
+    for name, words in (("moment_by_length", (relation.moment_by_length,)), ("drop_by_moment", (relation.drop_by_moment, False)),
+                        ("drop_by_moment_isolated", (relation.drop_by_moment, True))):  # yapf: disable
+        one = fit_or_why(*words)
+        row[name] = dict.fromkeys(Fit._fields) | ({"why": one} if isinstance(one, str) else one._asdict())
+    return row
+
+
+def relations(catalogues, smallest=None):
     """The figures of moment, length, drop of PE and stress drop. \\raises ValueError if there are too few ruptures"""
     events = [one.events[one.events["slip_moment"] > 0] for one in catalogues]
-    by_itself = [alone(one.events)[one.events["slip_moment"] > 0] for one in catalogues]
-    moment = np.concatenate([one["slip_moment"] for one in events])
-    if not len(moment):
+    if not sum(map(len, events)):
         raise ValueError("nothing to draw, no rupture of positive moment")
-    length, drop = (np.concatenate(column) for column in zip(*((one["rupture_length"], one["pe_start"] - one["pe_end"]) for one in events)))
-    whole = np.concatenate([one["rupture_length"] > of.length * (1 - 1e-9) for one, of in zip(events, catalogues)])
-    fell, isolated = drop > 0, np.concatenate(by_itself)
-    line = fit(length[~whole], moment[~whole])
+    labels = relations_of(catalogues, smallest)
+    parts = sum(int((~one.whole).sum()) for one in labels)
+    if parts < FEWEST:
+        raise ValueError(f"{parts} ruptures for a fit, expected at least {FEWEST} of different sizes")
+    moment, length, drop = (np.concatenate(column)
+                            for column in zip(*((one.events["slip_moment"], one.events["rupture_length"], one.drop) for one in labels)))
+    fell = drop > 0
     if not fell.any():
         raise ValueError("nothing to draw, no rupture of positive moment during which PE fell")
-    every, single = fit(moment[fell], drop[fell]), fit(moment[fell & isolated], drop[fell & isolated]) if (fell & isolated).sum() >= FEWEST else None
-    size = (900, 530 + 23 * (len(catalogues) + 2))
+
+    def fits(make, what, more=""):
+        """Lines of the fits of all labels, what they are or why there is none, and the fits."""
+        found, several = [(one.label, fit_or_why(make, one)) for one in labels], len(labels) > 1
+        named = [(number, f"{what} of {label}" if several else what, one) for number, (label, one) in enumerate(found)]
+        colours = ["#000000", "#777777", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+        lines = [one.line(colours[number % len(colours)], text) for number, text, one in named if not isinstance(one, str)]
+        return lines, [f"{text}: {one}" if isinstance(one, str) else getattr(one, more + "text")(text) for _, text, one in named], [
+            one for _, one in found if not isinstance(one, str)]  # yapf: disable
+
+    lines, said, found = fits(Relation.moment_by_length, "fit, whole fault and short ones excluded")
+    size = (900, 530 + 23 * (len(catalogues) + 1 + len(lines)))
     rows, curves = scatter(catalogues, lambda e, one: (e["rupture_length"], e["slip_moment"], (e["rupture_length"] > one.length *
                                                                                                (1 - 1e-9)).astype(int)))
-    curves += [line.line("#000000", "fit, whole fault excluded"),
-               f"{10**(line.intercept + line.slope - 2):.15g} * x**2 with lines lc rgb '#777777' dt (4,4) title 'slope 2: constant stress drop'"]  # yapf: disable
-    yield Figure("-length", ["slip moment (shear modulus x slip x length) against length; whole_fault: 1 where the whole fault slipped",
-                             line.text("fit, without those of the whole fault")], "catalogue,label,event_id,length,moment,whole_fault", rows,
+    curves += lines + [f"{10**(one.intercept + one.slope - 2):.15g} * x**2 with lines lc rgb '#777777' dt (4,4) title 'slope 2: constant stress drop'"
+                       for one in found[:1]]  # yapf: disable
+    yield Figure("-length", ["slip moment (shear modulus x slip x length) against length; whole_fault: 1 where the whole fault slipped; errors: "
+                             f"jackknife over {PARTS} parts of the time; fits from length " + ", ".join(f"{one.smallest:.4g}" for one in labels),
+                             *said], "catalogue,label,event_id,length,moment,whole_fault", rows,
                  KEY + axis("x", LENGTH, length.min(), length.max(), True) + axis("y", MOMENT, moment.min(), moment.max(), True)
                  + f"plot {', '.join(curves)}", size)  # yapf: disable
 
     rows, curves = scatter(
         catalogues, lambda e, one: (e["slip_moment"], e["pe_start"] - e["pe_end"], alone(one.events)[one.events["slip_moment"] > 0].astype(int)))
-    best = single or every
-    curves += ["table using ($6 == 1 && $5 > 0 ? $4 : NaN):5 with points pt 6 ps 1.5*point lc rgb '#000000' title 'isolated in time'",
-               every.line("#777777", "all")] + ([single.line("#000000", "isolated")] if single else [])  # yapf: disable
-    curves.append(f"{best.ratio:.15g} * x with lines lc rgb '#D55E00' dt (6,4) title 'proportional: {best.ratio:.2g} x moment'")
-    said = [every.ratio_text("fit of all")] + ([single.ratio_text("fit of those isolated in time")] if single else [])
+    lines, said, found = fits(lambda one: one.drop_by_moment(False), "all", "ratio_")
+    curves += ["table using ($6 == 1 && $5 > 0 ? $4 : NaN):5 with points pt 6 ps 1.5*point lc rgb '#000000' title 'isolated in time'", *lines]
+    more, saying, isolated = fits(lambda one: one.drop_by_moment(True), "isolated in time", "ratio_")
+    curves, said = curves + more, said + saying
+    curves += [f"{one.ratio:.15g} * x with lines lc rgb '#D55E00' dt (6,4) title 'proportional: {one.ratio:.2g} x moment'"
+               for one in (isolated or found)[:1]]  # yapf: disable
     yield Figure("-pe", ["drop of the total PE from beginning to end against slip moment; alone: 1 if the others at the same time have less than a "
-                         "tenth of its moment", f"PE rose during {(~fell).sum()} of {len(fell)} ruptures, which are not drawn", *said],
+                         "tenth of its moment", f"PE rose during {(~fell).sum()} of {len(fell)} ruptures, which are not drawn",
+                         *(f"fit, {one}" for one in said)],
                  "catalogue,label,event_id,moment,pe_drop,alone", rows,
                  KEY + axis("x", MOMENT, moment[fell].min(), moment[fell].max(), True)
                  + axis("y", "Drop of the total PE (model units)", drop[fell].min(), drop[fell].max(), True) + f"plot {', '.join(curves)}", size)  # yapf: disable
@@ -528,16 +618,18 @@ def plane_figures(history, one, begin, end, arrival):
 # ---- the program
 
 
-def main(catalogues, label, history, begin, end, p_speed, s_speed, arrival, output, no_picture):
+def main(catalogues, label, history, begin, end, smallest, p_speed, s_speed, arrival, json_file, output, no_picture):
     if label and len(label) != len(catalogues):
         raise ValueError(f"--label {len(label)} times, expected once for each of {len(catalogues)} catalogues")
-    if not begin < end or not (arrival is None or arrival > 0) or not (p_speed > 0 and s_speed > 0):
-        raise ValueError("expected --from before --to, and --arrival, --p-speed and --s-speed above 0")
+    if not begin < end or not (smallest is None or smallest >= 0) or not (arrival is None or arrival > 0) or not (p_speed > 0 and s_speed > 0):
+        raise ValueError("expected --from before --to, --min-length not below 0, and --arrival, --p-speed and --s-speed above 0")
     loaded = [load(path, label[n] if label else None, begin, end) for n, path in enumerate(catalogues)]
     for one in loaded:
         moments, lengths = one.events["slip_moment"], one.events["rupture_length"]
         print(f"{one.label}: {len(moments)} ruptures, moments in all {moments.sum():.6g}, largest {moments.max(initial=0):.4g}, "
               f"longest {lengths.max(initial=0):.4g}")
+    if json_file:
+        write_json(json_file, ruptures=[as_json(one, loaded) for one in relations_of(loaded, smallest)])
     figures = []
     if history:
         slip = History(history)
@@ -545,9 +637,9 @@ def main(catalogues, label, history, begin, end, p_speed, s_speed, arrival, outp
         figures += plane_figures(slip, loaded[0], begin, end, arrival) if slip.plane else line_figures(slip, loaded[0], begin, end,
                                                                                                        (p_speed, s_speed))
     try:
-        figures += [density_figure(loaded, "-lengths", "rupture_length"), density_figure(loaded, "-moments", "slip_moment"), *relations(loaded)]
+        figures += [density_figure(loaded, "-lengths", "rupture_length"), density_figure(loaded, "-moments", "slip_moment"), *relations(loaded, smallest)]
     except ValueError as error:
-        if not history or not slip.plane:  # a rupture of a plane is often the only one of its run
+        if not json_file and not (history and slip.plane):  # a rupture of a plane is often the only one of its run
             raise
         print(f"no figures of all ruptures: {error}")
     draw_all("lsm.ruptures", output, figures, [*catalogues, *([history] if history else [])], not no_picture)
@@ -559,11 +651,15 @@ def parser():
     options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
     options.add_argument("--history", metavar="FILE", help="slip history of the first catalogue's run")
     add_time_window(options)
+    options.add_argument(
+        "--min-length", type=float, dest="smallest", metavar="LENGTH", help="shortest rupture in fits of moment against length; default: "
+        f"{FEWEST_BINS} bins of the fault, as shorter ones lie off the line of the others")
     options.add_argument("--p-speed", type=float, default=lsm.P_SPEED, help="speed of P-waves (%(default)s; paper, Eq. 4: 2.12, the regular lattice)")
     options.add_argument("--s-speed", type=float, default=lsm.S_SPEED, help="speed of S-waves (%(default)s; not printed)")
     options.add_argument(
         "--arrival", type=float, help="slip velocity above which the rupture has come to a place of a plane, for the map of times; "
         "default: that above which places slip")
+    options.add_argument("--json", dest="json_file", metavar="FILE", help="numbers of each label: counts, rates, moments, and the fits")
     options.add_argument("-o", "--output", default="ruptures", metavar="BASE", help="files are BASE-NAME.csv, .png and .svg")
     options.add_argument("--no-picture", action="store_true", help="tables only")
     return options

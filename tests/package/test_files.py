@@ -42,6 +42,18 @@ def test_catalogue_of_the_slider_to_the_last_digit(slider):
     assert all(at[event["step_start"]] == event["pe_start"] and at[event["step_end"]] == event["pe_end"] for event in inside) and inside
 
 
+def test_numbers_are_plain(work):
+    """json and round() take them."""
+    (work / "a.csv").write_text(CATALOGUE)
+    events = lsm.read_catalogue("a.csv")
+    size, number = events["size"], events["event_id"]
+    found = [size.max(), size.sum(), size.mean(), np.mean(size), np.std(size), np.median(size), number.max(), number.sum(), (size > 0.1).sum()]
+    assert json.loads(json.dumps(found)) == [0.25, 0.25001, *[0.125005] * 2, 0.124995, 0.125005, 3, 4, 1]
+    assert round(size.max(), 1) == 0.2 and isinstance(round(number.max()), int)
+    doubled = 2 * size[:1]
+    assert doubled.tolist() == [0.5] and doubled.header["seed"] == "3" and np.sqrt(events[:0]["size"]).shape == (0,)
+
+
 def test_compressed_and_unknown_columns(work):
     for name, module in (("a.gz", gzip), ("a.xz", lzma)):
         (work / name).write_bytes(module.compress(CATALOGUE.encode()))

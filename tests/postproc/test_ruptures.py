@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """lsm.ruptures: numbers, relations, slip histories and maps of ruptures with known answers, and their pictures."""
+import json
 import os
 import re
 import sys
@@ -53,12 +54,12 @@ def test_ruptures():
     assert sum(row[5] for row in moments) == 43 and moments[0][2] <= 0.1 < moments[0][3]
     first.printed("^a: 43 ruptures")
     # For lengths below that of the fault, the slope is 2 without scatter.
-    slope("r-length.csv", "^# fit, without those of the whole fault: ", 2)
+    slope("r-length.csv", "^# fit, whole fault and short ones excluded: ", 2)
     flags = [row.split(",")[5] for row in rows("r-length.csv")]
     assert flags.count("1") == 1, "ruptures of the whole fault"
     # PE rose during one rupture. For the others, except those that overlap with another one, the drop is 0.05 times the moment.
     said("r-pe.csv", "^# PE rose during 1 of 43 ruptures")
-    slope("r-pe.csv", "^# fit of those isolated in time: .*n = 40.*ratio 0.05, scatter", 1)
+    slope("r-pe.csv", "^# fit, isolated in time: .*n = 40.*ratio 0.05, scatter", 1)
     beside = [float(row.split(",")[3]) for row in rows("r-pe.csv") if row.split(",")[5] == "0"]
     assert len(beside) == 3 and set(beside) <= {160, 90, 62.5}
     said("r-stress.svg", "means of half decades")
@@ -100,6 +101,47 @@ def test_logarithmic_fit():
     for x in [1, 2], [2, 2, 2]:
         with pytest.raises(ValueError, match="expected at least 3"):
             fit(np.array(x), np.array([1, 3, 5][:len(x)]))
+
+
+def test_errors_of_slopes_hold():
+    """Ruptures come in bursts in which all moments are off together, and the longer ones by more."""
+    rng, slopes, errors = np.random.default_rng(2), [], []
+    for _ in range(200):
+        bursts = np.repeat(np.arange(60), 15)
+        x = rng.uniform(0, 1.5, len(bursts))
+        y = 2 * x + (0.2 * rng.normal(size=60)[bursts] + 0.1 * rng.normal(size=len(x))) * x
+        one = fit(10**x, 10**y, bursts // 6)
+        slopes.append(one.slope)
+        errors.append(one.error)
+        assert fit(10**x, 10**y).slope == pytest.approx(one.slope, rel=1e-12)
+    assert np.std(slopes) == pytest.approx(np.sqrt(np.mean(np.square(errors))), rel=0.15)
+
+
+def test_each_label_has_a_fit_of_long_ruptures():
+    """Moments go as length^2 from 5 bins on, and twice as high in the second fault; those of one to four bins are far off the line."""
+    rng = np.random.default_rng(1)
+    for number, scale in enumerate((1.0, 1.0, 3.0)):
+        length = np.concatenate([np.repeat([1.0, 2.0, 3.0, 4.0], 50), np.arange(5.0, 45.0)])
+        rng.shuffle(length)
+        moment = 0.1 * scale * length**(2 + (number == 2)) * np.where(length < 5, 30.0, 1.0)
+        t = 10.0 * np.arange(len(length))
+        head = dict(model="lsm", events="ruptures", length=120, slip_bin=1)
+        more = dict(slip_moment=moment, rupture_length=length, x_hypocentre=0 * t, x_begin=0 * t, stress_drop=0.01 + 0 * t)
+        write_catalogue(f"{number}.csv", t, 0.05 * moment, head, t_end=t + 1, pe_start=1 + 0 * t, pe_end=1 - 0.05 * moment, **more)
+    words = "0.csv 1.csv 2.csv --label a --label a --label b --no-picture --json r.json -o r"
+    do(words)
+    a, b = json.loads(Path("r.json").read_text())["ruptures"]
+    assert (a["label"], a["catalogues"], a["ruptures"], b["ruptures"], a["smallest_length"]) == ("a", 2, 480, 240, 5)
+    assert a["rate"] == pytest.approx(480 / (2 * 2391 * 120)) and a["largest_moment"] == pytest.approx(0.1 * 44**2)
+    for one, slope, n in (a, 2, 80), (b, 3, 40):
+        assert (one["moment_by_length"]["n"], one["moment_by_length"]["slope"]) == (n, pytest.approx(slope, abs=1e-9))
+        assert one["drop_by_moment"]["ratio"] == pytest.approx(0.05)
+    said("r-length.csv", "^# fit, whole fault and short ones excluded of b: slope 3 .*n = 40")
+    do(words, "--min-length 1")
+    assert json.loads(Path("r.json").read_text())["ruptures"][0]["moment_by_length"]["slope"] < 1.5
+    do(words, "--min-length 44")
+    assert json.loads(Path("r.json").read_text())["ruptures"][0]["moment_by_length"]["why"].startswith("2 ruptures for a fit")
+    no("expected --from before --to, --min-length not below 0", "0.csv --min-length -1")
 
 
 def test_alone_in_time():
