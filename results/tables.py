@@ -783,9 +783,9 @@ def slider_velocity_table():
 
     told = [one for one in paper.SLIDER_STATEMENTS if one.name != "large"]
     blocks = ", ".join(row["blocks"] for row in groups["0.01"])
-    paper = ["paper", *(one.text for one in told)]
     return table([f"velocity, each for {blocks} blocks", *(one.name for one in told)],
-                 [paper] + [[velocity, *(", ".join(shown(one.value(row)) for row in rows) for one in told)] for velocity, rows in groups.items()])
+                 [["paper", *(one.text for one in told)]] + [[velocity, *(", ".join(shown(one.value(row)) for row in rows) for one in told)]
+                                                             for velocity, rows in groups.items()])
 
 
 def ground_table():

@@ -288,7 +288,7 @@ def relations(catalogues, smallest=None):
     def fits(make, what, more=""):
         """Lines of the fits of all labels, what they are or why there is none, and the fits."""
         found, several = [(one.label, fit_or_why(make, one)) for one in labels], len(labels) > 1
-        named = [(number, f"{what} of {label}" if several else what, one) for number, (label, one) in enumerate(found)]
+        named = [(number, f"{label}, {what}" if several else what, one) for number, (label, one) in enumerate(found)]
         colours = ["#000000", "#777777", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
         lines = [one.line(colours[number % len(colours)], text) for number, text, one in named if not isinstance(one, str)]
         return lines, [f"{text}: {one}" if isinstance(one, str) else getattr(one, more + "text")(text) for _, text, one in named], [

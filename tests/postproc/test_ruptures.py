@@ -136,7 +136,7 @@ def test_each_label_has_a_fit_of_long_ruptures():
     for one, slope, n in (a, 2, 80), (b, 3, 40):
         assert (one["moment_by_length"]["n"], one["moment_by_length"]["slope"]) == (n, pytest.approx(slope, abs=1e-9))
         assert one["drop_by_moment"]["ratio"] == pytest.approx(0.05)
-    said("r-length.csv", "^# fit, whole fault and short ones excluded of b: slope 3 .*n = 40")
+    said("r-length.csv", "^# b, fit, whole fault and short ones excluded: slope 3 .*n = 40")
     do(words, "--min-length 1")
     assert json.loads(Path("r.json").read_text())["ruptures"][0]["moment_by_length"]["slope"] < 1.5
     do(words, "--min-length 44")
