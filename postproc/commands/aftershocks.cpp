@@ -26,8 +26,7 @@ class AftershockRates : public Statistic {
            "and the same for Poisson catalogues of the same events. A main shock is the largest "
            "of all events that start within a window before its start to a window after its end. "
            "Events before main shocks are counted, too, and both beyond the rate far from main "
-           "shocks; catalogues of one --label are taken together. † The paper does not look "
-           "for aftershocks";
+           "shocks. † The paper does not look for aftershocks";
   }
 
   void add_options(CLI::App *command) override {
@@ -55,7 +54,7 @@ class AftershockRates : public Statistic {
     add_seed(group, seed_);
   }
 
-  std::vector<std::string> endings() const override { return {".omori.csv", ".means.csv"}; }
+  std::vector<std::string> endings() const override { return {".omori.csv"}; }
 
   SequenceRule rule_for(const EventTable &table) const {
     SequenceRule rule;
@@ -102,8 +101,6 @@ class AftershockRates : public Statistic {
     });
     results.say(texts(threshold_, tables));
     results.table("laws", aftershock_table(curves), ".omori");
-    if (Table means = aftershock_means(curves); means.rows() > 0)
-      results.table("means", std::move(means), ".means");
     if (!none || !picture.no_picture) results.figure("rates", aftershock_figure(curves));
     return results;
   }

@@ -115,13 +115,6 @@ void Statistic::add_usual(CLI::App *command, const std::string &base) {
   add_picture(command, base);
 }
 
-std::vector<std::string> picture_files(const std::vector<std::string> &names) {
-  std::vector<std::string> files;
-  for (const std::string &name : names)
-    for (const char *const kind : {".csv", ".gp", ".png", ".svg"}) files.push_back(name + kind);
-  return files;
-}
-
 #define LSM_COMMAND(name) std::shared_ptr<Command> make_##name();
 #include "command_list.def"
 #undef LSM_COMMAND

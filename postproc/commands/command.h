@@ -79,9 +79,6 @@ class Statistic : public CatalogueAnalysis {
   Results find() override { return of(load_catalogues(catalogues)); }
 };
 
-/// Endings of the files of further figures: each name with .csv, .gp, .png and .svg.
-std::vector<std::string> picture_files(const std::vector<std::string> &names);
-
 /// Creates all commands, with their names, in the order of --help.
 std::vector<std::pair<std::string, std::shared_ptr<Command>>> all_commands();
 

@@ -16,7 +16,6 @@ namespace {
 class Compare : public Statistic {
   Threshold threshold_;
   int replicas_ = 2000, block_ = 0;
-  bool rescale_ = false;
   std::uint64_t seed_ = 1;
 
   const char *help() const override {
@@ -33,9 +32,6 @@ class Compare : public Statistic {
     OptionGroup group(command);
     add_table(group, "compare");
     add_threshold(group, threshold_, "the events that are compared");
-    group.flag("--rescale", rescale_,
-               "Compare the times of each catalogue over their mean (as Corral 2004 does), in the "
-               "divisions as well: do they have the same form?");
     group.add("--replicas", replicas_, "Random permutations for each p-value", positive());
     group.add("--block", block_,
               "Consecutive events that are permuted as one block; 0: as many as the correlation "
@@ -51,8 +47,7 @@ class Compare : public Statistic {
       return inter_event_times(table, threshold);
     };
     try {
-      return two_sample_test(values(first), values(second), replicas_, seed_, block_,
-                             rescale_ && quantity == "time");
+      return two_sample_test(values(first), values(second), replicas_, seed_, block_);
     } catch (const std::invalid_argument &e) {
       throw std::runtime_error(
           fmt::format("{} and {}: {}s: {}", first.path, second.path, quantity, e.what()));

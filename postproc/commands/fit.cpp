@@ -33,10 +33,7 @@ class Fit : public Statistic {
               "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
               "its header)",
               kind("LO:HI"), shown(""), one_each());
-    add_threshold(group, settings_.threshold, "the range, the search and the picture");
-    group.flag("--search", settings_.search,
-               "Also the range with the smallest Kolmogorov-Smirnov distance, a line of its own "
-               "marked 'searched' †");
+    add_threshold(group, settings_.threshold, "the range and the picture");
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);
@@ -68,8 +65,6 @@ class Fit : public Statistic {
     out.column("degenerate", "degenerate", [](auto &line) { return line.found.free.why; });
     for (const EventTable &table : tables) {
       const double least = settings_.threshold.of(table).size;
-      if (!(least > 0.0))
-        throw std::invalid_argument("--roll-off of sizes from 0 on, expected --threshold above 0");
       out.row({table, least, roll_off(table, least)});
     }
     return Table(std::move(out));
@@ -96,6 +91,11 @@ class Fit : public Statistic {
       if (!(settings_.ranges.back().lo > 0.0))
         throw std::invalid_argument("--range '" + text + "', expected LO above 0");
     }
+    expect_events(tables);
+    if (roll_off_ || (settings_.ranges.empty() && settings_.threshold.given))
+      for (const EventTable &table : tables)
+        if (!(settings_.threshold.of(table).size > 0.0))
+          throw std::invalid_argument("sizes from 0 on, expected --threshold above 0");
     settings_.compare = !no_comparison_;
     const std::vector<SizeFit> fits = fit_sizes(tables, settings_);
     Results results;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "clustering_figures.h"
 #include "command.h"
 #include "event_time.h"
 #include "interval_figures.h"
@@ -48,25 +47,15 @@ class Intervals : public Statistic {
               "the data were; 0: none",
               zero_or_more());
     settings_.shuffles = -1;
-    group.add("--shuffles", settings_.shuffles,
-              "Random series with which burstiness, memory, times after short and long ones, and "
-              "the steadiness of the rate are compared; 0: none. With more than 1e5 times, the "
-              "default is fewer series, 2e7 times in all and at least 19",
-              shown("200"), zero_or_more());
-    group.add("--steady", settings_.steady,
-              "Largest departure of the cumulative number of events from a straight line, over "
-              "their number, of periods proposed as steady †",
-              between(0.0, 1.0));
-    group.add("--steady-events", settings_.steady_events, "Fewest events of such a period",
-              positive());
+    group.add(
+        "--shuffles", settings_.shuffles,
+        "Random series with which burstiness, memory and the steadiness of the rate are compared; 0: none. With more than 1e5 times, the "
+        "default is fewer series, 2e7 times in all and at least 19",
+        shown("200"), zero_or_more());
     add_seed(group, settings_.seed);
   }
 
-  std::vector<std::string> endings() const override {
-    std::vector<std::string> files = picture_files({".rate", ".conditional", ".cuts"});
-    files.insert(files.end(), {".table1.csv", ".clustering.csv"});
-    return files;
-  }
+  std::vector<std::string> endings() const override { return {".table1.csv", ".clustering.csv"}; }
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
     TableOf<IntervalCurve> table;
@@ -100,7 +89,7 @@ class Intervals : public Statistic {
     const std::vector<Table1Row> rows = table1_rows(curves);
     Results results;
     for (const IntervalCurve &curve : curves)
-      if (curve.plot.bins.empty())
+      if (curve.bins.empty())
         results.warn(
             curve.n > 0
                 ? curve.sample.label + ": all times are 0: the events start together"
@@ -115,16 +104,6 @@ class Intervals : public Statistic {
     results.table("gamma_of_cut", cuts_table(curves));
     results.table("clustering", clustering_table(curves, date_text), ".clustering");
     results.figure("densities", std::move(figure));
-    if (std::any_of(curves.begin(), curves.end(), [](const IntervalCurve &curve) {
-          return std::any_of(curve.cuts.begin(), curve.cuts.end(), [](const GammaOfCut &one) {
-            return one.cut > 0.0 && !one.fit.degenerate;
-          });
-        }))
-      results.figure("", cuts_figure(curves), ".cuts");
-    if (std::any_of(curves.begin(), curves.end(), has_clustering)) {
-      results.figure("rate", rate_figure(curves), ".rate");
-      results.figure("conditional", conditional_figure(curves), ".conditional");
-    }
     return results;
   }
 };

@@ -6,18 +6,14 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <map>
-#include <numeric>
-#include <string_view>
-#include <utility>
-#include <vector>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "command.h"
 #include "files/text.h"
-#include "replicas.h"
+#include "monte_carlo.h"
 #include "standard_streams.h"
 
 namespace {
@@ -29,41 +25,10 @@ const char *const description =
     "units. 'postproc COMMAND --help' lists the options of a command. †: not in the paper, "
     "chosen here.";
 
-/// Where commands and options of earlier versions are.
-const std::map<std::string_view, std::string_view> moved = {
-    {"rupture", "python3 -m lsm.ruptures"},      {"report", "inputs/studies/report.py"},
-    {"units", "units() of Python's module lsm"}, {"spectrum", "spectrum() of Python's module lsm"},
-    {"rates", "rates() of Python's module lsm"}, {"summary", "python3 -m lsm.summary"},
-    {"--scaling", "python3 -m lsm.scaling"}};
-
 int fail(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
   fmt::print(stderr, "postproc: {}\n", what);
   return 1;
-}
-
-/// Finds the command whose name has the smallest edit distance to the given word.
-template <class Commands>
-std::string nearest(std::string_view word, const Commands &commands) {
-  std::string best;
-  std::size_t fewest = std::string::npos;
-  for (const auto &command : commands) {
-    const std::string &name = command.first;
-    std::vector<std::size_t> row(name.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t corner = std::exchange(row[0], i + 1);
-      for (std::size_t k = 0; k < name.size(); ++k) {
-        const std::size_t changed = corner + (word[i] == name[k] ? 0 : 1);
-        corner = row[k + 1];
-        row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
-      }
-    }
-    if (row.back() >= fewest) continue;
-    fewest = row.back();
-    best = name;
-  }
-  return best;
 }
 
 /// Shows on a terminal the progress of a long Monte Carlo test.
@@ -109,15 +74,14 @@ int main(int argc, char **argv) {
     }
     app.footer(
         "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.");
-    for (int i = 1; i < argc; ++i)
-      if (const auto place = moved.find(argv[i]);
-          place != moved.end() && (i == 1 || argv[i][0] == '-'))
-        return fail(fmt::format("'{}' has left, see {}", place->first, place->second));
     if (argc > 1 && argv[1][0] != '-' &&
         std::none_of(commands.begin(), commands.end(),
-                     [argv](const auto &command) { return command.first == argv[1]; }))
-      return fail("unknown command " + LSM::text::in_quotes(argv[1]) + ", did you mean '" +
-                  nearest(argv[1], commands) + "'? (--help lists the options)");
+                     [argv](const auto &command) { return command.first == argv[1]; })) {
+      std::string names;
+      for (const auto &[name, command] : commands) names += (names.empty() ? "" : ", ") + name;
+      return fail("unknown command " + LSM::text::in_quotes(argv[1]) + ", expected one of " +
+                  names);
+    }
     if (const auto status = LSM::parse(app, {argv + 1, argv + argc})) return *status;
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail("cannot write to standard output");

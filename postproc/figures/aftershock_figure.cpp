@@ -64,38 +64,6 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   return Table(std::move(table));
 }
 
-Table aftershock_means(const std::vector<AftershockCurve> &curves) {
-  struct Mean {
-    std::string label;
-    std::vector<Measured> p, ratio;
-  };
-  TableOf<Mean> table;
-  table.column("label", "catalogues of one label", &Mean::label);
-  table.column("catalogues", "number", [](auto &mean) { return mean.p.size(); });
-  table.column("of_p", "with a p", [](auto &mean) {
-    return std::count_if(mean.p.begin(), mean.p.end(),
-                         [](const Measured &one) { return std::isfinite(one.value); });
-  });
-  table.column("p", "p, mean", [](auto &mean) { return mean_of_catalogues(mean.p); });
-  table.column("after_to_before", "after / before, mean",
-               [](auto &mean) { return mean_of_catalogues(mean.ratio); });
-  table.comment("means of the catalogues of one label, errors from their scatter");
-  std::vector<std::string> labels;
-  for (const AftershockCurve &curve : curves)
-    if (std::find(labels.begin(), labels.end(), curve.label) == labels.end())
-      labels.push_back(curve.label);
-  for (const std::string &label : labels) {
-    Mean mean{label, {}, {}};
-    for (const AftershockCurve &curve : curves) {
-      if (curve.label != label) continue;
-      mean.p.push_back({curve.aftershocks.fit.p, curve.aftershocks.fit.se_p});
-      mean.ratio.push_back(curve.aftershocks.sequences.after_to_before());
-    }
-    if (mean.p.size() > 1) table.row(mean);
-  }
-  return Table(std::move(table));
-}
-
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
   Table table(
       "curve,model,bin_lo,bin_hi,time,count,rate,error,poisson_rate,poisson_scatter,label,before");

@@ -20,9 +20,6 @@ struct AftershockCurve {
 
 /// Numbers of the main shocks and aftershocks and the fitted Omori-Utsu law, a row per catalogue.
 Table aftershock_table(const std::vector<AftershockCurve> &curves);
-/// Means of the exponent p and of the ratio of aftershocks to foreshocks over the catalogues that
-/// share a label. A label with only one catalogue has no row.
-Table aftershock_means(const std::vector<AftershockCurve> &curves);
 
 /// Event rate against the time since the end of a main shock, with Poisson errors, the fitted law,
 /// and the rates of Poisson catalogues (mean and two standard deviations).

@@ -22,7 +22,7 @@ namespace {
 void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
              const GeneralisedGammaFit &fit, bool rejected) {
   plot.add_law(
-      std::max(curve.plot.bins.front().lo, fit.lo), curve.plot.bins.back().hi,
+      std::max(curve.bins.front().lo, fit.lo), curve.bins.back().hi,
       fmt::format("{}*$1**({})*exp(-$1**({})/{})", text::number(fit.C),
                   text::number(fit.gamma - 1.0), text::number(fit.delta), text::number(fit.B)),
       fmt::format("lt {}{}", number, rejected ? " dt 3 lw 2" : " dt 1 lw 1.6"));
@@ -49,9 +49,9 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
   std::int64_t number = 0;
   bool any_accepted = false, any_rejected = false;
   for (const IntervalCurve &curve : curves) {
-    if (curve.plot.bins.empty()) continue;
+    if (curve.bins.empty()) continue;
     ++number;
-    for (const LogBin &bin : curve.plot.bins) {
+    for (const LogBin &bin : curve.bins) {
       table.row(number, curve.sample.model, curve.sample.threshold.size, bin, curve.sample.label);
       if (bin.count == 0) continue;
       heights.add(bin.density);
@@ -130,31 +130,64 @@ Table cuts_table(const std::vector<IntervalCurve> &curves) {
   return Table(std::move(table));
 }
 
-Figure cuts_figure(const std::vector<IntervalCurve> &curves) {
-  Table table = cuts_table(curves);
-  Curves plot("$4", "$4 > 0");
-  Extent range, heights;
-  std::int64_t number = 0;
-  for (const IntervalCurve &curve : curves) {
-    ++number;
-    const double mean = curve.fitted_mean();
-    bool any = false;
-    for (const GammaOfCut &one : curve.cuts) {
-      if (one.fit.degenerate || !(one.cut > 0.0)) continue;
-      any = true;
-      range.add(one.cut / mean);
-      heights.add(one.fit.gamma - 1.2 * one.fit.se_gamma);
-      heights.add(one.fit.gamma + 1.2 * one.fit.se_gamma);
-    }
-    if (!any) continue;
-    plot.add_data(number, 7, 8);
-    plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
-             curve.sample.label);
+namespace {
+
+/// A number of Clustering: its column, its description, and the random series it is compared with.
+struct Named {
+  const char *column, *text, *random;
+  AgainstChance Clustering::*number;
+};
+
+constexpr Named numbers[] = {
+    {"variation", "variation (standard deviation / mean)", "independent", &Clustering::variation},
+    {"finite_burstiness", "burstiness, finite form", "independent", &Clustering::finite_burstiness},
+    {"memory", "memory coefficient", "shuffled", &Clustering::memory}};
+
+}  // namespace
+
+Table clustering_table(const std::vector<IntervalCurve> &curves,
+                       const std::function<std::string(double)> &date) {
+  TableOf<IntervalCurve> table;
+  const auto time = [date](double Steadiness::*end) {
+    return [date, end](const IntervalCurve &curve) {
+      const double t = curve.steadiness.*end;
+      return curve.sample.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
+    };
+  };
+  table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
+  table.show("events", [](auto &curve) { return curve.sample.from(); });
+  table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
+  table.column("n", "times", &IntervalCurve::n);
+  table.show("from", time(&Steadiness::from));
+  table.show("to", time(&Steadiness::to));
+  table.data("from", [](auto &curve) { return curve.steadiness.from; });
+  table.data("to", [](auto &curve) { return curve.steadiness.to; });
+  table.column(
+      "departure", "departure from a steady rate",
+      [](auto &curve) { return curve.steadiness.departure; }, 2);
+  table.column(
+      "steady_p", "p of a steady rate", [](auto &curve) { return curve.steadiness.p; }, 2);
+  table.column(
+      "burstiness", "burstiness", [](auto &curve) { return curve.clustering.burstiness; }, 3);
+  for (const Named &one : numbers) {
+    const std::string name = one.column;
+    const auto of = [number = one.number](const IntervalCurve &c) { return c.clustering.*number; };
+    table.column(
+        name, one.text, [of](auto &curve) { return of(curve).value; }, 3);
+    table.show(one.random, [of](auto &c) { return Measured{of(c).mean, of(c).deviation}; });
+    table.data(name + "_random", [of](auto &curve) { return of(curve).mean; });
+    table.data(name + "_random_deviation", [of](auto &curve) { return of(curve).deviation; });
+    table.column(
+        name + "_p", "p", [of](auto &curve) { return of(curve).p; }, 2);
   }
-  if (range.empty()) throw DegenerateData("no catalogue gives gamma for any cut, nothing to draw");
-  return plot.figure(std::move(table),
-                     axis("x", "shortest time used, over the mean", true, range.lo, range.hi) +
-                         axis("y", "γ (δ = 1, maximum likelihood)", false, heights.lo, heights.hi));
+  table.comment(
+      "departure: of the cumulative number of events from a straight line, over their number; "
+      "steady_p: share of series of the same times, in blocks in random order, that depart as far");
+  table.comment(
+      "random: mean and standard deviation of independent exponential times (variation, "
+      "burstiness) or of the times in random order; p: share of them as far from their mean");
+  for (const IntervalCurve &curve : curves) table.row(curve);
+  return Table(std::move(table));
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,11 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled);
 /// curve. The cut that all commands use is marked: the larger of 2.5 memories of the picker and
 /// 0.05 of the mean.
 Table cuts_table(const std::vector<IntervalCurve> &curves);
-/// gamma with its errors against the cut over the mean time.
-/// \throws DegenerateData if no curve has a number
-Figure cuts_figure(const std::vector<IntervalCurve> &curves);
+
+/// Departure from a steady rate, variation, burstiness and memory, a row per curve.
+/// \param date formats a time of earthquakes, given in days since 1970
+Table clustering_table(const std::vector<IntervalCurve> &curves,
+                       const std::function<std::string(double)> &date);
 
 /// One of our rows of Table 1.
 struct Table1Row {

@@ -25,17 +25,15 @@ void add_numbers(json &out, const Fit &fit, const json &found) {
     out.update(found);
 }
 
-/// "0.001 to 1", with a mark if search_range() found the range.
+/// "0.001 to 1"
 std::string range_text(const PowerLawFit &fit) {
-  return fmt::format("{} to {}{}", short_number(fit.lo, 3),
-                     std::isinf(fit.hi) ? "infinity" : short_number(fit.hi, 3),
-                     fit.searched ? " (searched)" : "");
+  return fmt::format("{} to {}", short_number(fit.lo, 3),
+                     std::isinf(fit.hi) ? "infinity" : short_number(fit.hi, 3));
 }
 
-/// "exponent_1e-4:0.1", or "exponent_searched_..." if search_range() found the range.
+/// "exponent_1e-4:0.1"
 std::string name_of(const PowerLawFit &fit) {
-  return fmt::format("exponent_{}{}:{}", fit.searched ? "searched_" : "", short_number(fit.lo, 6),
-                     short_number(fit.hi, 6));
+  return fmt::format("exponent_{}:{}", short_number(fit.lo, 6), short_number(fit.hi, 6));
 }
 
 /// The law that a comparison favours. It is decided by p below 0.05 †.
@@ -60,7 +58,6 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
   table.data("model", [](auto &line) { return line.of.model; });
   table.data("lo", [](auto &line) { return line.fit.lo; });
   table.data("hi", [](auto &line) { return line.fit.hi; });
-  table.data("searched", [](auto &line) { return line.fit.searched ? "yes" : "no"; });
   table.column("n", "events", [](auto &line) { return line.fit.n; });
   table.show("exponent", [](auto &l) { return Measured{l.fit.alpha, l.fit.standard_error}; });
   table.data("exponent", [](auto &line) { return line.fit.alpha; });
@@ -115,8 +112,8 @@ static void to_json(json &out, const Comparison &c) {
 
 void to_json(json &out, const SizeFit &fit) {
   const PowerLawFit &law = fit.fit;
-  out = {{"label", fit.label}, {"model", fit.model}, {"name", name_of(law)},    {"lo", law.lo},
-         {"hi", law.hi},       {"n", law.n},         {"searched", law.searched}};
+  out = {{"label", fit.label}, {"model", fit.model}, {"name", name_of(law)},
+         {"lo", law.lo},       {"hi", law.hi},       {"n", law.n}};
   add_numbers(out, law,
               {{"exponent", law.alpha},
                {"standard_error", law.standard_error},

@@ -90,26 +90,16 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
   return out;
 }
 
-std::string panel(double left, double right, double bottom, double top) {
-  return fmt::format(
-      "unset logscale\nset format '%g'\nset xtics autofreq\nset ytics autofreq\n"
-      "unset mxtics\nunset mytics\nset autoscale\nset title ''\n"
-      "set lmargin at screen {}\nset rmargin at screen {}\n"
-      "set bmargin at screen {}\nset tmargin at screen {}\n",
-      left, right, bottom, top);
-}
-
 Curves::Curves(std::string_view x, std::string_view condition)
     : functions_(fmt::format("row(k) = $1 == k{}{} ? {} : NaN\n", condition.empty() ? "" : " && ",
                              condition, x)) {}
 
-void Curves::add(Layer layer, const std::string &element, const std::string &title,
-                 std::string (*quoted)(std::string_view)) {
-  layers_[layer].push_back(element + (title.empty() ? " notitle" : " title " + quoted(title)));
+void Curves::add(Layer layer, const std::string &element, const std::string &title) {
+  layers_[layer].push_back(element + (title.empty() ? " notitle" : " title " + quote(title)));
   if (!title.empty()) titles_.push_back(title);
 }
 
-void Curves::add_data(std::int64_t curve, int y, int error, const std::string &title) {
+void Curves::add_data(std::int64_t curve, int y, int error) {
   // Bars are drawn as vectors because gnuplot's yerrorbars surround each point with white in an
   // SVG. A logarithmic axis has no zero: where an error reaches its value, the bar ends one decade
   // below it.
@@ -118,18 +108,19 @@ void Curves::add_data(std::int64_t curve, int y, int error, const std::string &t
   add(data, fmt::format("table using (row({0})):(low(${1},${2})):(0):(${1}+${2}-low(${1},${2})) "
                         "with vectors heads size screen 0.003,90 lt {0} dt 1 lw 0.8",
                         curve, y, error));
-  add(data, fmt::format("table using (row({0})):{1} with points lt {0}", curve, y), title);
+  add(data, fmt::format("table using (row({0})):{1} with points lt {0}", curve, y));
 }
 
 void Curves::add_law(double lo, double hi, const std::string &formula, const std::string &style,
-                     const std::string &title, std::string (*quoted)(std::string_view)) {
+                     const std::string &title) {
   add(laws,
       fmt::format("[{}:{}] '+' using 1:({}) with lines {}", text::number(lo), text::number(hi),
                   formula, style),
-      title, quoted);
+      title);
 }
 
-Figure Curves::figure(Table table, const std::string &axes, int width) const {
+Figure Curves::figure(Table table, const std::string &axes) const {
+  constexpr int width = PictureSize().width;
   std::string elements;
   for (const auto &layer : layers_)
     for (const std::string &element : layer)

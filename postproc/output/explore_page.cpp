@@ -143,7 +143,7 @@ static void to_json(json &out, const ThresholdResult &result) {
          {"burstinessText", short_number(curve.burstiness())},
          {"law", result.law},
          {"gammas", curve.fits},
-         {"bins", bins_json(curve.plot.bins)}};
+         {"bins", bins_json(curve.bins)}};
 }
 
 namespace {

@@ -84,10 +84,6 @@ void make(const Figure &figure, const PictureOptions &options);
 /// kind, unless options.overwrite
 void check_outputs(const Figure &figure, const PictureOptions &options);
 
-/// gnuplot commands that begin a panel of a multiplot with linear axes.
-/// \param left,right,bottom,top its edges as fractions of the picture
-std::string panel(double left, double right, double bottom, double top);
-
 /// Builds a plot command and its key. Later layers are drawn over earlier ones.
 class Curves {
  public:
@@ -101,19 +97,17 @@ class Curves {
 
   /// Adds an element of the plot command.
   /// \param title in the key; empty: none
-  /// \param quoted quote() or quote_plain(), for the title
-  void add(Layer layer, const std::string &element, const std::string &title = "",
-           std::string (*quoted)(std::string_view) = quote);
+  void add(Layer layer, const std::string &element, const std::string &title = "");
   /// Adds the points of a curve of the table with error bars.
   /// \param y,error numbers of the columns, from 1
-  void add_data(std::int64_t curve, int y, int error, const std::string &title = "");
+  void add_data(std::int64_t curve, int y, int error);
   /// Adds the curve y = formula from lo to hi.
   /// \param formula gnuplot expression in $1
   void add_law(double lo, double hi, const std::string &formula, const std::string &style,
-               const std::string &title = "", std::string (*quoted)(std::string_view) = quote);
+               const std::string &title = "");
   /// Returns the figure, whose height leaves the same room for the axes however long the key is.
   /// \param axes gnuplot commands before the plot command
-  Figure figure(Table table, const std::string &axes, int width = 900) const;
+  Figure figure(Table table, const std::string &axes) const;
 
  private:
   std::string functions_;

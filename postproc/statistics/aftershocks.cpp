@@ -13,7 +13,7 @@
 #include "log_histogram.h"
 #include "numerics/random.h"
 #include "numerics/sum.h"
-#include "replicas.h"
+#include "monte_carlo.h"
 #include "samples.h"
 
 namespace LSM::postproc {
@@ -31,30 +31,30 @@ double omori_integral(double a, double b, double c, double p) {
 }
 
 // ln L as a function of the expected numbers of aftershocks and background events, and of c and p.
-class Likelihood {
+class OmoriLikelihood {
  public:
-  explicit Likelihood(const Sequences &s)
+  explicit OmoriLikelihood(const Sequences &s)
       : first_(s.first), window_(s.window), n_(static_cast<double>(s.times.size())) {
-    // To bound the cost of an evaluation, the times of a large sample are grouped into cells 3 %
-    // wide, each represented by the mean and the variance of ln t. Over such a width ln(rate) is so
-    // nearly linear in ln t that a second-order expansion suffices.
+    // To bound the cost of an evaluation, the times of a large sample are taken together in groups
+    // 3 % wide, each represented by the mean and the variance of ln t. Over such a width ln(rate)
+    // is so nearly linear in ln t that a second-order expansion suffices.
     const double width = n_ > static_cast<double>(largest_exact_sample) ? 1.03 : 1.0;
     for (std::size_t i = 0; i < s.times.size();) {
       std::size_t end = i + 1;
       while (end < s.times.size() && s.times[end] <= width * s.times[i]) ++end;
-      Cell cell{s.times[i], static_cast<double>(end - i), 0.0};
-      if (cell.time < s.times[end - 1] && cell.time > 0.0) {
-        NeumaierSum sum, squares;  // of ln(time / first time of the cell)
+      Group group{s.times[i], static_cast<double>(end - i), 0.0};
+      if (group.time < s.times[end - 1] && group.time > 0.0) {
+        NeumaierSum sum, squares;  // of ln(time / first time of the group)
         for (std::size_t k = i; k < end; ++k) {
           const double ratio = std::log(s.times[k] / s.times[i]);
           sum.add(ratio);
           squares.add(ratio * ratio);
         }
-        const double mean = sum.value() / cell.count;
-        cell.time *= std::exp(mean);
-        cell.variance = std::max(0.0, squares.value() / cell.count - mean * mean);
+        const double mean = sum.value() / group.count;
+        group.time *= std::exp(mean);
+        group.variance = std::max(0.0, squares.value() / group.count - mean * mean);
       }
-      cells_.push_back(cell);
+      groups_.push_back(group);
       i = end;
     }
   }
@@ -64,15 +64,15 @@ class Likelihood {
     const double flat = background / (window_ - first_);
     if (!std::isfinite(scale)) return -HUGE_VAL;
     NeumaierSum sum;
-    for (const Cell &cell : cells_) {
-      const double decaying = scale * std::exp(-p * std::log(cell.time + c));
+    for (const Group &group : groups_) {
+      const double decaying = scale * std::exp(-p * std::log(group.time + c));
       double value = std::log(decaying + flat);
-      if (cell.variance > 0.0) {
+      if (group.variance > 0.0) {
         // half the second derivative of ln(rate) with respect to ln t, times the variance of ln t
-        const double share = decaying / (decaying + flat), q = cell.time / (cell.time + c);
-        value -= 0.5 * cell.variance * p * q * share * (1.0 - q - p * q * (1.0 - share));
+        const double share = decaying / (decaying + flat), q = group.time / (group.time + c);
+        value -= 0.5 * group.variance * p * q * share * (1.0 - q - p * q * (1.0 - share));
       }
-      sum.add(cell.count * value);
+      sum.add(group.count * value);
     }
     return sum.value() - aftershocks - background;
   }
@@ -80,17 +80,17 @@ class Likelihood {
   double n() const { return n_; }
 
  private:
-  /// A group of times and the variance of their logarithms.
-  struct Cell {
+  /// Times taken together, and the variance of their logarithms.
+  struct Group {
     double time, count, variance;
   };
 
-  std::vector<Cell> cells_;
+  std::vector<Group> groups_;
   double first_, window_, n_;
 };
 
 // A candidate law. The amplitude is expressed by the share of aftershocks in all expected events.
-struct Law {
+struct OmoriLaw {
   double share = 1.0, c = NAN, p = NAN;  // share: of aftershocks in all expected events
   double log_likelihood = -HUGE_VAL;
 };
@@ -98,13 +98,13 @@ struct Law {
 // Maximises the likelihood. At the maximum the expected number of events equals the observed one,
 // so the share of aftershocks alone determines both amplitudes.
 struct Search {
-  const Likelihood &likelihood;
+  const OmoriLikelihood &likelihood;
   double hold_c;  // NaN: c is fitted
   double least_ln_c, most_ln_c;
   bool background = true;
 
   // Free variables in this order: logit of the share (with a background), ln c (if fitted), p.
-  Numbers variables_of(const Law &law) const {
+  Numbers variables_of(const OmoriLaw &law) const {
     Numbers x;
     const double share = std::clamp(law.share, 1e-9, 1.0 - 1e-9);
     if (background) x.push_back(std::log(share / (1.0 - share)));
@@ -112,9 +112,9 @@ struct Search {
     x.push_back(law.p);
     return x;
   }
-  Law law_at(const gsl_vector *x) const {
+  OmoriLaw law_at(const gsl_vector *x) const {
     std::size_t i = 0;
-    Law law{1.0, hold_c, 0.0};
+    OmoriLaw law{1.0, hold_c, 0.0};
     if (background) law.share = 1.0 / (1.0 + std::exp(-gsl_vector_get(x, i++)));
     if (std::isnan(hold_c)) law.c = std::exp(gsl_vector_get(x, i++));
     law.p = gsl_vector_get(x, i);
@@ -127,7 +127,7 @@ struct Search {
   }
 
   // Nelder-Mead search from a given law until the simplex is smaller than the tolerance.
-  Law climb(const Law &from, double tolerance) const {
+  OmoriLaw climb(const OmoriLaw &from, double tolerance) const {
     Numbers first = variables_of(from), steps(first.size(), 1.0);
     steps.back() = 0.3;
     gsl_multimin_function function;
@@ -152,13 +152,13 @@ struct Search {
 
   // Best law. If less than half an event is attributed to the background, the maximum is on the
   // boundary, where ln L has no curvature to give an error, and the background is dropped.
-  Law best(double middle) {
-    Law top;
+  OmoriLaw best(double middle) {
+    OmoriLaw top;
     for (const double share : {0.3, 0.8})
       for (const double c : {0.1 * middle, middle}) {
         const double ln_c =
             std::clamp(std::log(std::max(c, 1e-300)), least_ln_c + 0.1, most_ln_c - 0.1);
-        const Law found = climb({share, std::exp(ln_c), 1.1}, 0.02);
+        const OmoriLaw found = climb({share, std::exp(ln_c), 1.1}, 0.02);
         if (found.log_likelihood > top.log_likelihood) top = found;
         if (!std::isnan(hold_c)) break;
       }
@@ -167,7 +167,7 @@ struct Search {
   }
 
   // Why the law is not an acceptable decay, or "".
-  std::string no_decay(const Law &law, double likelihood_ratio) const {
+  std::string no_decay(const OmoriLaw &law, double likelihood_ratio) const {
     const bool held = !std::isnan(hold_c);
     const double ln_c = std::log(law.c);
     if (!(likelihood_ratio > (held ? 5.99 : 7.81))) return "no decay: a constant rate fits as well";
@@ -201,7 +201,7 @@ SymmetricMatrix information_at(const Function &f, const Numbers &x) {
 }
 
 // Fills in the parameters and their standard errors, or the reason why there are none.
-void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &fit) {
+void report(const OmoriLaw &law, const Search &search, const Sequences &s, OmoriFit &fit) {
   const bool held = !std::isnan(search.hold_c);
   const double n = search.likelihood.n(), shocks = static_cast<double>(s.main_shocks);
   const auto per_K = [&](double c, double p) {
@@ -232,10 +232,6 @@ void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &
   fit.background = (1.0 - law.share) * n / (shocks * (s.window - s.first));
   if (search.background) fit.se_background = fit.background * covariance.error(x.size() - 1);
 }
-
-}  // namespace
-
-namespace {
 
 /// Counts the events outside all windows and measures that time.
 /// \param mains main shocks in order of time
@@ -333,31 +329,11 @@ Measured Sequences::after_to_before() const {
   return {ratio, std::hypot(after.error, ratio * ahead.error) / ahead.value};
 }
 
-Measured mean_of_catalogues(const std::vector<Measured> &numbers) {
-  std::vector<Measured> known;
-  for (const Measured &number : numbers)
-    if (!std::isnan(number.value)) known.push_back(number);
-  if (known.empty()) return {};
-  if (known.size() == 1) return known.front();
-  const auto n = static_cast<double>(known.size());
-  const double mean = mean_of(column(known, &Measured::value));
-  double squares = 0.0, own = 0.0;
-  for (const Measured &number : known) {
-    squares += (number.value - mean) * (number.value - mean);
-    if (number.error > 0.0) own += number.error * number.error;
-  }
-  return {mean, std::sqrt(std::max(squares / (n - 1.0) / n, own / n / n))};
-}
-
 double OmoriFit::rate(double t) const {
   return degenerate ? constant : K * std::pow(t + c, -p) + background;
 }
 
-namespace {
-
-// For callers that already hold a QuietGsl: GSL's error handler is global, so threads must not
-// switch it on and off.
-OmoriFit fit_quietly(const Sequences &s, double hold_c) {
+OmoriFit fit_omori(const Sequences &s, double hold_c) {
   if (!std::isnan(hold_c) && !(hold_c >= 0.0 && std::isfinite(hold_c) && hold_c + s.first > 0.0))
     throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
                                 ", expected 0 or more (0 needs a first time above 0)");
@@ -372,23 +348,16 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
     return without_numbers(fit, std::to_string(fit.n) + " events after " +
                                     std::to_string(s.main_shocks) + " main shocks, at least " +
                                     std::to_string(fewest_aftershocks) + " events needed");
-  const Likelihood likelihood(s);
+  const OmoriLikelihood likelihood(s);
   // With c far below the shortest time the laws are indistinguishable, hence the lower limit of c.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
   const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
   Search search{likelihood, hold_c, std::log(1e-3 * shortest), std::log(s.window)};
-  const Law law = search.best(s.times[s.times.size() / 4]);
+  const OmoriLaw law = search.best(s.times[s.times.size() / 4]);
   fit.likelihood_ratio = std::max(0.0, 2.0 * (law.log_likelihood - likelihood.constant()));
   fit.why = search.no_decay(law, fit.likelihood_ratio);
   if (fit.why.empty()) report(law, search, s, fit);
   return fit;
-}
-
-}  // namespace
-
-OmoriFit fit_omori(const Sequences &sequences, double hold_c) {
-  const QuietGsl quiet;
-  return fit_quietly(sequences, hold_c);
 }
 
 std::vector<EventSummary> poisson_catalogue(const std::vector<EventSummary> &events,
@@ -482,7 +451,6 @@ Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, do
   result.fit = fit_omori(result.sequences, hold_c);
   result.bins = rate_bins(result.sequences, rule, factor);
   std::vector<Replica> all(static_cast<std::size_t>(replicas));
-  const QuietGsl quiet;
   for_each_replica(replicas, [&](int k) {
     const Sequences other = stack_sequences(
         poisson_catalogue(table.events, table.info.overlapping(), seed_of_replica(seed, k)), rule);
@@ -490,7 +458,7 @@ Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, do
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;
     // The likelihood ratio of a replica with too few events is NaN, which compares as smaller.
-    replica.as_large = fit_quietly(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
+    replica.as_large = fit_omori(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
     for (const RateBin &bin : result.bins)
       replica.rates.push_back(static_cast<double>(count_in(bin, other.times)) /
                               (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo)));

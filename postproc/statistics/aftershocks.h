@@ -55,12 +55,6 @@ struct Sequences {
   Measured excess(std::size_t count) const;
 };
 
-/// Averages a number over the catalogues of one label; NaN values are left out.
-/// \return mean and its standard error, from the scatter but not below what the errors of the
-/// catalogues imply: few catalogues may agree by chance; of a single catalogue, its own value and
-/// error
-Measured mean_of_catalogues(const std::vector<Measured> &numbers);
-
 /// Finds the main shocks and stacks the events around them. A main shock is an event of at least
 /// main_size that is the largest (among equal ones, the first) of all events that start between
 /// `window` before its start and `window` after its end, all of which must lie within the

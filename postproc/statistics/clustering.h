@@ -4,30 +4,15 @@
 /// inter-event times beyond its density, each compared with random series without memory.
 ///
 /// Sources: Goh & Barabasi 2008, EPL 81, 48002 (burstiness, memory coefficient); Kim & Jo 2016,
-/// Phys. Rev. E 94, 032311 (burstiness of a finite number of times); Livina et al. 2005, Phys. Rev.
-/// Lett. 95, 208501 (times after short and long ones). Steady stretches, test of the rate: †.
+/// Phys. Rev. E 94, 032311 (burstiness of a finite number of times). Test of the rate: †.
 #ifndef LSM_POSTPROC_CLUSTERING_H
 #define LSM_POSTPROC_CLUSTERING_H
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "samples.h"
-
 namespace LSM::postproc {
-
-/// Numbers of equally populated groups into which the times are divided by length.
-constexpr std::size_t thirds = 3, eighths = 8;
-
-/// Cumulative number of events at `points` + 1 equally spaced times, from the first to the last
-/// start.
-/// \param starts in ascending order
-/// \return pairs of time and number of events up to it
-std::vector<std::pair<double, std::int64_t>> cumulative_numbers(const std::vector<double> &starts,
-                                                                int points);
 
 /// Coefficient of variation: standard deviation over mean. The sum of squares is divided by n, as
 /// the series is described rather than a population behind it.
@@ -57,14 +42,6 @@ struct Clustering {
   AgainstChance finite_burstiness;
   /// Correlation of each time with the next one. Random series: permutations of the times.
   AgainstChance memory;
-  /// Mean of the times that follow the shortest, the middle and the longest third, over the mean of
-  /// all times. Random series: permutations.
-  std::array<AgainstChance, thirds> after;
-  /// The same for eighths, from the shortest to the longest (the division of Livina et al. 2005).
-  std::array<AgainstChance, eighths> after_eighth;
-  /// Kolmogorov-Smirnov distance between the times after the shortest third and those after the
-  /// longest, evaluated at the edges of 480 equally populated cells. Random series: permutations.
-  AgainstChance after_distance;
 };
 
 /// Compares the statistics of a series with those of random series.
@@ -73,35 +50,20 @@ struct Clustering {
 /// \return NaN in all members for fewer than 12 times or if all are 0
 Clustering clustering(const std::vector<double> &times, int replicas, std::uint64_t seed);
 
-/// Times that follow a time of the shortest, the middle and the longest third, in order of time.
-std::array<std::vector<double>, thirds> times_after_thirds(const std::vector<double> &times);
-
-/// A stretch of time and how steadily events occurred in it.
-struct Stretch {
-  double from = NAN, to = NAN;
-  std::int64_t n = 0;
-  /// Largest distance of the cumulative number from a straight line, over n.
-  double departure = NAN;
-};
-
-/// How steady the rate of events is, over all and in stretches.
+/// How steady the rate of events is.
 struct Steadiness {
-  Stretch whole;
+  double from = NAN, to = NAN;  ///< first and last start
+  /// Largest distance of the cumulative number of events from a straight line, over their number.
+  double departure = NAN;
   /// Share of series with as large a departure if blocks of the times are permuted. Blocks keep
   /// short sequences intact, so a small p means that the rate varies over longer times than these.
   double p = NAN;
-  /// Stretches with a departure within the tolerance, which do not overlap, by decreasing number of
-  /// events.
-  std::vector<Stretch> steady;
 };
 
-/// Tests whether the rate of events is constant and finds stretches in which it is.
+/// Tests whether the rate of events is constant †.
 /// \param starts in ascending order; with fewer than 20 the result is empty
-/// \param tolerance largest departure of a steady stretch
-/// \param fewest smallest number of events of a steady stretch
 /// \param replicas number of permutations; 0: no p
-Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::int64_t fewest,
-                      int replicas, std::uint64_t seed);
+Steadiness steadiness(const std::vector<double> &starts, int replicas, std::uint64_t seed);
 
 }  // namespace LSM::postproc
 

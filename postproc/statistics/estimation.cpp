@@ -66,7 +66,6 @@ Covariance covariance_of(const SymmetricMatrix &information) {
 
 LeastSquares least_squares(const Numbers &weights, const std::vector<Numbers> &starts,
                            const Residual &residual) {
-  const QuietGsl quiet;
   const std::size_t n = weights.size(), count = starts.front().size();
   gsl_multifit_nlinear_fdf functions{};
   functions.f = residuals;

@@ -15,15 +15,14 @@
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "cells.h"
 #include "estimation.h"
-#include "ks_distance.h"
 #include "files/text.h"
-#include "numerics/sum.h"
-#include "replicas.h"
+#include "monte_carlo.h"
+#include "sample.h"
 #include "samples.h"
 #include "truncated_family.h"
 
@@ -117,106 +116,64 @@ void check_delta(double fixed) {
 
 // ---- maximum likelihood
 
-struct Profile {
+// A law for v, truncated on the left at `lower`; -infinity: not truncated.
+struct GammaLaw {
+  double lower;
   double delta = 1.0, gamma = 0.0;
-  double v0 = 0.0;                    // infinite: the best law has no fall-off
-  double log_likelihood = -HUGE_VAL;  // per value, density in v
-};
+  double v0 = 0.0;                    // infinite: no fall-off, a power law
+  double log_likelihood = -HUGE_VAL;  // of a sample per value, for the density in v
 
-// A law truncated on the left at v = lower; -infinity: not truncated.
-class Law {
- public:
-  Law(double gamma, double delta, double v0, double lower)
-      : gamma_(gamma), delta_(delta), v0_(v0), lower_(lower), k_(gamma / delta) {
-    if (truncated()) all_ = tail(lower);
-  }
-  Law(const Profile &profile, double lower)
-      : Law(profile.gamma, profile.delta, profile.v0, lower) {}
-
-  bool truncated() const { return std::isfinite(lower_); }
-  double lower() const { return lower_; }
-  // Probability of exceeding v.
-  double survival(double v) const { return tail(v) / all_; }
-  // A value beyond which the probability is negligible.
-  double end() const {
-    const double s = truncated() ? std::exp(delta_ * (lower_ - v0_)) : 0.0, k = std::max(k_, 0.0);
-    return v0_ + std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta_;
-  }
-  // Draws from the law, which must not be truncated: exp(delta (v - v0)) is a gamma variable of
-  // shape k. It is drawn as a logarithm, since it underflows for small k.
-  double draw(gsl_rng *rng) const {
-    const double u = gsl_rng_uniform_pos(rng);
-    return v0_ + (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
-  }
-  // Kolmogorov-Smirnov distance of a sample from this law.
-  auto ks(const SamplePoints &points) const {
-    return KsDistance(points, [this](double v) { return 1.0 - survival(v); });
-  }
-
- private:
+  bool truncated() const { return std::isfinite(lower); }
   // Survival function up to a constant factor; it underflows where exp(delta (v - v0)) exceeds 700.
   double tail(double v) const {
-    if (std::isinf(v0_)) return std::exp(gamma_ * (v - lower_));  // the limiting power law
-    const double s = std::exp(delta_ * (v - v0_));
+    if (std::isinf(v0)) return std::exp(gamma * (v - lower));
+    const double s = std::exp(delta * (v - v0)), k = gamma / delta;
     if (s > 700.0) return 0.0;
-    return k_ > 0.0 ? gsl_sf_gamma_inc_Q(k_, s) : gsl_sf_gamma_inc(k_, s);
+    return k > 0.0 ? gsl_sf_gamma_inc_Q(k, s) : gsl_sf_gamma_inc(k, s);
   }
-
-  double gamma_, delta_, v0_, lower_, k_, all_ = 1.0;
+  // Probability of exceeding v, as a function of v; and that of not exceeding it.
+  FittedLaw::Function survival() const {
+    return [law = *this, all = truncated() ? tail(lower) : 1.0](double v) {
+      return law.tail(v) / all;
+    };
+  }
+  FittedLaw::Function cdf() const {
+    return [above = survival()](double v) { return 1.0 - above(v); };
+  }
+  // A value beyond which the probability is negligible.
+  double end() const {
+    const double s = truncated() ? std::exp(delta * (lower - v0)) : 0.0,
+                 k = std::max(gamma / delta, 0.0);
+    return v0 + std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta;
+  }
 };
 
-// Likelihood of a sample of logarithms; profile(delta) maximises over gamma and the scale.
-class Likelihood {
- public:
-  Likelihood(std::vector<double> v, double lower)
-      : v_(std::move(v)), lower_(lower), n_(static_cast<double>(v_.size())) {
-    mean_v_ = mean([](double v_i) { return v_i; });
-  }
-  // A sample reduced to counts in cells, each represented by its centre.
-  Likelihood(const std::vector<double> &centres, const std::vector<double> &counts, double lower)
-      : lower_(lower), n_(std::accumulate(counts.begin(), counts.end(), 0.0)) {
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (!(counts[i] > 0.0)) continue;
-      v_.push_back(centres[i]);
-      counts_.push_back(counts[i]);
-    }
-    mean_v_ = mean([](double v_i) { return v_i; });
-  }
-
-  template <class F>
-  double mean(F f) const {
-    NeumaierSum sum;
-    if (counts_.empty())
-      for (double v : v_) sum.add(f(v));
-    else
-      for (std::size_t i = 0; i < v_.size(); ++i) sum.add(counts_[i] * f(v_[i]));
-    return sum.value() / n_;
-  }
-  double mean_v() const { return mean_v_; }
-  double n() const { return n_; }
-  bool truncated() const { return std::isfinite(lower_); }
+// Likelihood of a sample of logarithms from `lower` on, maximised over gamma and the scale for each
+// delta.
+struct ProfileLikelihood {
+  const Sample &sample;
+  double lower;
+  double mean_v = sample.mean([](double v) { return v; });
 
   // Log-likelihood per value of the power law without a fall-off; only for a truncated sample.
-  double power_law() const { return -std::log(mean_v_ - lower_) - 1.0; }
+  double power_law() const { return -std::log(mean_v - lower) - 1.0; }
 
-  Profile profile(double delta) const {
-    Profile result;
-    result.delta = delta;
-    if (truncated()) {
-      const double lower = lower_;
-      const double mean_t = mean([&](double v) { return std::exp(delta * (v - lower)); });
-      const TiltedFit fit = fit_tilted({delta}, mean_v_ - lower, mean_t, HUGE_VAL);
-      if (!fit.converged) return result;
-      result.gamma = fit.b;
-      result.v0 = lower - std::log(fit.c) / delta;
-      result.log_likelihood = fit.log_likelihood;
-      return result;
+  GammaLaw at(double delta) const {
+    GammaLaw law{lower, delta};
+    if (law.truncated()) {
+      const double mean_t = sample.mean([&](double v) { return std::exp(delta * (v - lower)); });
+      const TiltedFit fit = fit_tilted({delta}, mean_v - lower, mean_t, HUGE_VAL);
+      if (!fit.converged) return law;
+      law.gamma = fit.b;
+      law.v0 = lower - std::log(fit.c) / delta;
+      law.log_likelihood = fit.log_likelihood;
+      return law;
     }
     // w = theta^delta has a gamma distribution of shape k = gamma / delta. As ln k - psi(k) falls
     // from infinity to 0, there is exactly one solution, which is found by Newton's method in ln k.
-    const double mean_w = mean([&](double v) { return std::exp(delta * v); });
-    const double target = std::log(mean_w) - delta * mean_v_;
-    if (!(target > 1e-12)) return result;
+    const double mean_w = sample.mean([&](double v) { return std::exp(delta * v); });
+    const double target = std::log(mean_w) - delta * mean_v;
+    if (!(target > 1e-12)) return law;
     double k = 0.5 / target + 0.2;
     for (int i = 0; i < 100; ++i) {
       const double slope = 1.0 - k * gsl_sf_psi_1(k);
@@ -225,20 +182,19 @@ class Likelihood {
       if (std::fabs(step) < 1e-14) break;
     }
     const double log_b = std::log(mean_w / k);
-    result.gamma = k * delta;
-    result.v0 = log_b / delta;
-    result.log_likelihood =
-        std::log(delta) - k * log_b - gsl_sf_lngamma(k) + result.gamma * mean_v_ - k;
-    return result;
+    law.gamma = k * delta;
+    law.v0 = log_b / delta;
+    law.log_likelihood = std::log(delta) - k * log_b - gsl_sf_lngamma(k) + law.gamma * mean_v - k;
+    return law;
   }
 
   // Best delta in (delta_min, delta_max): a coarse scan, since there may be several maxima, then
   // Brent's method around the best one.
-  Profile best() const {
+  GammaLaw best() const {
     constexpr int steps = 20;
     const double first = std::log(delta_min), width = std::log(delta_max / delta_min) / steps;
-    std::vector<Profile> scan;
-    for (int i = 0; i <= steps; ++i) scan.push_back(profile(std::exp(first + i * width)));
+    std::vector<GammaLaw> scan;
+    for (int i = 0; i <= steps; ++i) scan.push_back(at(std::exp(first + i * width)));
     const auto top = std::max_element(scan.begin(), scan.end(), [](const auto &a, const auto &b) {
       return a.log_likelihood < b.log_likelihood;
     });
@@ -248,10 +204,10 @@ class Likelihood {
 
   // The same for a replica: searches outwards from the best delta of the data. The tolerance only
   // has to keep the error far below that of the distance to be computed.
-  Profile best_near(double delta) const {
+  GammaLaw best_near(double delta) const {
     constexpr double width = 0.15;
-    const auto beside = [delta](int k) { return delta * std::exp(k * width); };
-    Profile low = profile(beside(-1)), middle = profile(delta), high = profile(beside(1));
+    const auto beside = [this, delta](int k) { return at(delta * std::exp(k * width)); };
+    GammaLaw low = beside(-1), middle = at(delta), high = beside(1);
     for (int k = 1; std::isfinite(middle.log_likelihood) && !std::isinf(middle.v0); ++k) {
       if (middle.log_likelihood >= low.log_likelihood &&
           middle.log_likelihood >= high.log_likelihood)
@@ -260,63 +216,37 @@ class Likelihood {
       const bool up = high.log_likelihood > low.log_likelihood;
       const double next = (up ? high : low).delta * std::exp(up ? width : -width);
       if (!(next > delta_min && next < delta_max)) break;
-      if (up) {
-        low = middle;
-        middle = high;
-        high = profile(next);
-      } else {
-        high = middle;
-        middle = low;
-        low = profile(next);
-      }
+      (up ? low : high) = std::exchange(middle, up ? high : low);
+      (up ? high : low) = at(next);
     }
     return best();
   }
 
-  double lower() const { return lower_; }
-
-  // Best law with delta held at a value, or free (NaN).
-  Profile best(double held) const { return std::isnan(held) ? best() : profile(held); }
-
-  // Sorts the sample in place, in ascending order.
-  const std::vector<double> &sort() {
-    std::sort(v_.begin(), v_.end());
-    return v_;
-  }
-
  private:
   // Brent's method between two values of delta that bracket a better one.
-  Profile between(const Profile &low, const Profile &middle, const Profile &high,
-                  double tolerance) const {
+  GammaLaw between(const GammaLaw &low, const GammaLaw &middle, const GammaLaw &high,
+                   double tolerance) const {
     gsl_function function;
-    function.params = const_cast<Likelihood *>(this);
+    function.params = const_cast<ProfileLikelihood *>(this);
     function.function = [](double x, void *self) {
-      return -static_cast<const Likelihood *>(self)->profile(std::exp(x)).log_likelihood;
+      return -static_cast<const ProfileLikelihood *>(self)->at(std::exp(x)).log_likelihood;
     };
     const Gsl<gsl_min_fminimizer> minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
                                             gsl_min_fminimizer_free);
-    if (gsl_min_fminimizer_set_with_values(minimiser.get(), &function, std::log(middle.delta),
-                                           -middle.log_likelihood, std::log(low.delta),
-                                           -low.log_likelihood, std::log(high.delta),
-                                           -high.log_likelihood) != GSL_SUCCESS)
+    gsl_min_fminimizer *const work = minimiser.get();
+    if (gsl_min_fminimizer_set_with_values(
+            work, &function, std::log(middle.delta), -middle.log_likelihood, std::log(low.delta),
+            -low.log_likelihood, std::log(high.delta), -high.log_likelihood) != GSL_SUCCESS)
       return middle;
-    for (int i = 0; i < 50; ++i) {
-      if (gsl_min_fminimizer_iterate(minimiser.get()) != GSL_SUCCESS) break;
-      if (gsl_min_fminimizer_x_upper(minimiser.get()) -
-              gsl_min_fminimizer_x_lower(minimiser.get()) <
-          tolerance)
-        break;
-    }
-    return profile(std::exp(gsl_min_fminimizer_x_minimum(minimiser.get())));
+    for (int i = 0; i < 50 && gsl_min_fminimizer_iterate(work) == GSL_SUCCESS; ++i)
+      if (gsl_min_fminimizer_x_upper(work) - gsl_min_fminimizer_x_lower(work) < tolerance) break;
+    return at(std::exp(gsl_min_fminimizer_x_minimum(work)));
   }
-
-  std::vector<double> v_, counts_;  // counts_ is empty if each value counts once
-  double lower_, n_, mean_v_ = 0.0;
 };
 
 // Derivatives of ln f, apart from ln C, with respect to the parameters.
 struct Derivatives {
-  Derivatives(double v, const Profile &law) {
+  Derivatives(double v, const GammaLaw &law) {
     const double delta = law.delta, w = delta * (v - law.v0), s = std::exp(w);
     first = {0.0, v, delta * s, -s * w};
     second[log_delta][log_delta] = -s * w * (1.0 + w);
@@ -328,16 +258,23 @@ struct Derivatives {
 };
 
 // A function that draws from the law.
-std::function<double(gsl_rng *)> sampler_of(const Law &law) {
-  if (!law.truncated()) return [law](gsl_rng *rng) { return law.draw(rng); };
+std::function<double(gsl_rng *)> sampler_of(const GammaLaw &law) {
+  // Without truncation, exp(delta (v - v0)) is a gamma variable of shape k. It is drawn as a
+  // logarithm, since it underflows for small k.
+  if (!law.truncated())
+    return [law, k = law.gamma / law.delta](gsl_rng *rng) {
+      const double u = gsl_rng_uniform_pos(rng);
+      return law.v0 + (std::log(gsl_ran_gamma(rng, k + 1.0, 1.0)) + std::log(u) / k) / law.delta;
+    };
   // A truncated law may have k <= 0 and then no gamma variable: interpolate the distribution
   // function, tabulated so finely that linear interpolation is off by less than 1e-5.
   constexpr std::size_t points = 8192;
-  const double first = law.lower(), width = (law.end() - first) / (points - 1);
+  const double width = (law.end() - law.lower) / (points - 1);
+  const auto cdf_at = law.cdf();
   std::vector<double> at, cdf;
   for (std::size_t i = 0; i < points; ++i) {
-    at.push_back(first + width * static_cast<double>(i));
-    cdf.push_back(1.0 - law.survival(at.back()));
+    at.push_back(law.lower + width * static_cast<double>(i));
+    cdf.push_back(cdf_at(at.back()));
   }
   cdf.front() = 0.0;
   return
@@ -357,16 +294,17 @@ std::vector<double> logs_from(double lo, const std::vector<double> &values) {
 }
 
 // Why the best law does not belong to the family, or "".
-std::string no_density(const Likelihood &likelihood, const Profile &best, bool delta_fixed) {
+std::string no_density(const ProfileLikelihood &likelihood, const GammaLaw &best,
+                       bool delta_fixed) {
   // Tested first, since data from a pure power law drive the parameters to a boundary or along a
   // ridge.
-  if (likelihood.truncated() &&
-      2.0 * likelihood.n() * (best.log_likelihood - likelihood.power_law()) <
+  if (best.truncated() &&
+      2.0 * likelihood.sample.n() * (best.log_likelihood - likelihood.power_law()) <
           least_gain(delta_fixed))
     return no_fall_off;
   if (!std::isfinite(best.log_likelihood)) return "no optimum found";
   const std::string why = delta_fixed ? "" : outside(best.delta);
-  if (why.empty() && !likelihood.truncated() && best.gamma < 0.05)
+  if (why.empty() && !best.truncated() && best.gamma < 0.05)
     return "gamma is at its limit 0, beyond which only a fit truncated on the left exists";
   return why;
 }
@@ -374,7 +312,7 @@ std::string no_density(const Likelihood &likelihood, const Profile &best, bool d
 // Observed information of the sample on the free parameters; ln C follows from them by
 // normalisation.
 // \param mean_slope receives the means of the first derivatives over the law
-SymmetricMatrix information_at(const Profile &law, const Likelihood &likelihood,
+SymmetricMatrix information_at(const GammaLaw &law, const Sample &sample,
                                const TabulatedDensity &table, bool delta_fixed,
                                Numbers &mean_slope) {
   for (std::size_t a = shape; a < parameters; ++a)
@@ -389,23 +327,23 @@ SymmetricMatrix information_at(const Profile &law, const Likelihood &likelihood,
       });
       const double of_data =
           b == shape ? 0.0
-                     : likelihood.mean([&](double v) { return Derivatives(v, law).second[a][b]; });
+                     : sample.mean([&](double v) { return Derivatives(v, law).second[a][b]; });
       information(i, j) = information(j, i) =
-          likelihood.n() * (of_law - mean_slope[a] * mean_slope[b] - of_data);
+          sample.n() * (of_law - mean_slope[a] * mean_slope[b] - of_data);
     }
   return information;
 }
 
-void report(const Likelihood &likelihood, const Profile &best, double reference,
+void report(const Sample &sample, const GammaLaw &best, double reference,
             GeneralisedGammaFit &fit) {
-  const double delta = best.delta, v0 = best.v0, gamma = best.gamma, lower = likelihood.lower();
+  const auto &[lower, delta, gamma, v0, log_likelihood] = best;
   const double mode = gamma > 0.0 ? v0 + std::log(gamma / delta) / delta : -HUGE_VAL;
   const TabulatedDensity table =
-      tabulate([&](double x) { return gamma * x - std::exp(delta * (x - v0)); },
+      tabulate([&best](double x) { return best.gamma * x - std::exp(best.delta * (x - best.v0)); },
                std::max(mode, lower), lower, HUGE_VAL, 1.0 / delta);
   Numbers slope_c(parameters);
   const Covariance covariance =
-      covariance_of(information_at(best, likelihood, table, fit.delta_fixed, slope_c));
+      covariance_of(information_at(best, sample, table, fit.delta_fixed, slope_c));
   if (covariance.n == 0) {
     fit.why = singular;
     return;
@@ -489,28 +427,26 @@ Vector completed(const Numbers &p, Vector held) {
 GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo,
                                            double delta) {
   check_delta(delta);
-  const QuietGsl quiet;
   GeneralisedGammaFit fit;
   fit.lo = lo;
   fit.delta_fixed = !std::isnan(delta);
   std::vector<double> v = logs_from(lo, values);
   fit.n = static_cast<std::int64_t>(v.size());
   if (fit.n < 20) return without_numbers(fit, number(fit.n) + " values, at least 20 needed");
-  NeumaierSum sum;
-  for (double v_i : v) sum.add(v_i);
-  const double reference = sum.value() / static_cast<double>(v.size());
+  const double reference = Sample(v).mean([](double v_i) { return v_i; });
   for (double &v_i : v) v_i -= reference;
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
   if (!(*greatest - *least > 1e-9)) return without_numbers(fit, "all values are equal");
-  Likelihood likelihood(std::move(v), lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL);
-  const Profile best = likelihood.best(delta);
+  Sample sample(std::move(v));
+  const ProfileLikelihood likelihood{sample, lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL};
+  const GammaLaw best = fit.delta_fixed ? likelihood.at(delta) : likelihood.best();
   fit.why = no_density(likelihood, best, fit.delta_fixed);
-  if (fit.why.empty()) report(likelihood, best, reference, fit);
+  if (fit.why.empty()) report(sample, best, reference, fit);
   if (std::isfinite(best.log_likelihood))
-    fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
+    fit.log_likelihood = sample.n() * (best.log_likelihood - likelihood.mean_v - reference);
   if (!fit.why.empty()) return fit;
-  const std::vector<double> &sorted = likelihood.sort();
-  fit.ks = Law(best, likelihood.lower()).ks({sorted.data(), sorted.size()})();
+  sample.sort();
+  fit.ks = sample.distance(best.cdf());
   return fit;
 }
 
@@ -577,49 +513,30 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
     throw std::invalid_argument("p-value of a degenerate generalised gamma density: " + fit.why);
   if (fit.dof > 0) return gsl_cdf_chisq_Q(fit.chi2, fit.dof);
   if (replicas == 0) return NAN;
-  const QuietGsl quiet;
-  const auto n = static_cast<std::size_t>(fit.n);
   // The distance does not depend on the unit of time, so the one in which B is 1 is used.
   const double unit = std::log(fit.B) / fit.delta;
-  const auto best_of = [&fit](const Likelihood &replica) {
-    return fit.delta_fixed ? replica.profile(fit.delta) : replica.best_near(fit.delta);
+  std::vector<double> v = logs_from(fit.lo, values);
+  for (double &v_i : v) v_i -= unit;
+  std::sort(v.begin(), v.end());
+  const GammaLaw law{fit.lo > 0.0 ? std::log(fit.lo) - unit : -HUGE_VAL, fit.delta, fit.gamma};
+  FittedLaw fitted;
+  fitted.survival = law.survival();
+  fitted.draw = [n = v.size(), sampler = sampler_of(law)](gsl_rng *rng) {
+    std::vector<double> drawn(n);
+    for (double &v_i : drawn) v_i = sampler(rng);
+    return drawn;
   };
-  const Law law(fit.gamma, fit.delta, 0.0, fit.lo > 0.0 ? std::log(fit.lo) - unit : -HUGE_VAL);
   // Any optimum counts as the fit of a replica, even if it would be called degenerate for data.
-  if (fit.n > largest_exact_sample) {
-    std::vector<double> v = logs_from(fit.lo, values);
-    for (double &v_i : v) v_i -= unit;
-    std::sort(v.begin(), v.end());
-    // Without truncation, a thousandth of a value is expected below the first edge.
-    const double first =
-        law.truncated() ? law.lower() : std::log(1e-3 / static_cast<double>(n)) / fit.gamma;
-    const Cells cells([&law](double x) { return law.survival(x); }, {first, law.end()},
-                      static_cast<double>(n));
-    return cells.share_as_far(
-        v, replicas, seed, [&](const std::vector<double> &counts, double found) {
-          const Profile best = best_of(Likelihood(cells.centres(), counts, law.lower()));
-          if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
-          std::vector<double> below(counts.size() + 1);
-          std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
-          const Law fitted(best, law.lower());
-          auto ks = fitted.ks({cells.edges().data(), below.size(), below.data()});
-          return std::isnan(found) ? ks() : ks.against(found);
-        });
-  }
-  const auto sampler = sampler_of(law);
-  const Rng rng = generator(seed);
-  const auto draw = [&] {
-    std::vector<double> v(n);
-    for (double &v_i : v) v_i = sampler(rng.get());
-    return v;
+  fitted.refit = [&](const Sample &sample) {
+    const ProfileLikelihood replica{sample, law.lower};
+    const GammaLaw best = fit.delta_fixed ? replica.at(fit.delta) : replica.best_near(fit.delta);
+    return std::isfinite(best.log_likelihood) ? best.cdf() : FittedLaw::Function();
   };
-  return share_of_draws(replicas, draw, [&](std::vector<double> v) {
-    Likelihood likelihood(std::move(v), law.lower());
-    const Profile best = best_of(likelihood);
-    const SamplePoints sorted{likelihood.sort().data(), n};
-    return !std::isfinite(best.log_likelihood) ||
-           Law(best, law.lower()).ks(sorted).against(fit.ks) > 0.0;
-  });
+  // Without truncation, a thousandth of a value is expected below the first edge.
+  const double first =
+      law.truncated() ? law.lower : std::log(1e-3 / static_cast<double>(v.size())) / fit.gamma;
+  fitted.edges = {first, law.end()};
+  return share_of_worse_fits(fitted, v, fit.ks, replicas, seed);
 }
 
 }  // namespace LSM::postproc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file gsl_owners.h
-/// Owners of GSL objects, and a guard that switches off GSL's error handler within a block.
+/// Owners of GSL objects.
 #ifndef LSM_POSTPROC_GSL_OWNERS_H
 #define LSM_POSTPROC_GSL_OWNERS_H
 
@@ -19,18 +19,9 @@ inline Gsl<gsl_vector> gsl_vector_of(std::size_t n) {
   return {gsl_vector_alloc(n), gsl_vector_free};
 }
 
-/// Switches off GSL's error handler, which ends the program by default, for the lifetime of the
-/// guard; callers then check each status. The handler is global: one for all threads.
-class QuietGsl {
- public:
-  QuietGsl() : old_(gsl_set_error_handler_off()) {}
-  ~QuietGsl() { gsl_set_error_handler(old_); }
-  QuietGsl(const QuietGsl &) = delete;
-  QuietGsl &operator=(const QuietGsl &) = delete;
-
- private:
-  gsl_error_handler_t *old_;
-};
+/// GSL's error handler, which would end the program, is off from the start: callers check each
+/// status. (It is global, so that threads must not switch it.)
+inline gsl_error_handler_t *const usual_handler = gsl_set_error_handler_off();
 
 }  // namespace LSM::postproc
 

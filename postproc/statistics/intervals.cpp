@@ -64,26 +64,13 @@ std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double m
 
 namespace {
 
-void add_clustering(IntervalCurve &curve, const EventTable &table, const std::vector<double> &times,
-                    int shuffles, const IntervalSettings &settings) {
-  curve.clustering = clustering(times, shuffles, settings.seed);
-  curve.plot.starts = column_from(table, curve.sample.threshold.size, &Event::t_start);
-  curve.steadiness = steadiness(curve.plot.starts, settings.steady, settings.steady_events,
-                                shuffles, settings.seed);
-  auto after = times_after_thirds(times);
-  for (std::size_t k = 0; k < after.size(); ++k) {
-    for (double &time : after[k]) time /= curve.mean;
-    curve.plot.after[k] = log_histogram(after[k], std::pow(10.0, 0.2));
-  }
-}
-
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const IntervalCurve &curve,
                                  const IntervalSettings &settings) {
   std::vector<IntervalFit> fits;
   const auto add = [&](const char *name, FitMethod method, double delta) {
     fits.push_back({name, delta,
-                    fit_times(method, times, curve.plot.bins, settings.shortest,
-                              curve.sample.memory, curve.fitted_mean(), delta)});
+                    fit_times(method, times, curve.bins, settings.shortest, curve.sample.memory,
+                              curve.fitted_mean(), delta)});
   };
   for (const double delta : settings.deltas) {
     if (settings.maximum_likelihood)
@@ -112,12 +99,16 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.mean = mean_of(times);
   curve.variation = variation_of(times);
   const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
-  if (shuffles > 0) add_clustering(curve, table, times, shuffles, settings);
+  if (shuffles > 0) {
+    curve.clustering = clustering(times, shuffles, settings.seed);
+    curve.steadiness = steadiness(column_from(table, curve.sample.threshold.size, &Event::t_start),
+                                  shuffles, settings.seed);
+  }
   times = positive_ones(std::move(times));
   curve.zeros = curve.n - static_cast<std::int64_t>(times.size());
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
-  curve.plot.bins = log_histogram(times, settings.factor);
+  curve.bins = log_histogram(times, settings.factor);
   curve.sample.memory = table.picker_memory();
   if (settings.rescale) curve.sample.memory /= curve.mean;
   if (!times.empty())

@@ -4,7 +4,6 @@
 #ifndef LSM_POSTPROC_INTERVALS_H
 #define LSM_POSTPROC_INTERVALS_H
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "event_table.h"
 #include "generalised_gamma.h"
 #include "log_histogram.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -32,8 +32,6 @@ struct IntervalSettings {
   /// Number of random series for clustering() and steadiness(); 0: these are left out; negative:
   /// shuffles_for().
   int shuffles = 0;
-  double steady = 0.05;                     ///< largest departure of a steady stretch
-  std::int64_t steady_events = 500;         ///< its smallest number of events
   std::vector<double> deltas = {1.0, NAN};  ///< values at which delta is held; NaN: free
 };
 
@@ -85,22 +83,13 @@ struct IntervalSample {
   std::string from() const { return events_from_text(earthquakes, threshold.size); }
 };
 
-/// What is drawn of a curve, besides its fits.
-struct IntervalPlot {
-  std::vector<LogBin> bins;    ///< density of the times
-  std::vector<double> starts;  ///< start times of the events, if clustering is requested
-  /// Likewise: densities of the times that follow the shortest, the middle and the longest third,
-  /// divided by the mean of all times.
-  std::array<std::vector<LogBin>, thirds> after;
-};
-
 /// Inter-event times of one catalogue above one threshold.
 struct IntervalCurve {
   IntervalSample sample;
-  IntervalPlot plot;
-  std::int64_t n = 0;      ///< number of inter-event times
-  std::int64_t zeros = 0;  ///< those of 0, which are left out of densities and fits
-  double mean = 0.0;       ///< mean inter-event time before rescaling; NaN if there is none
+  std::vector<LogBin> bins;  ///< density of the times
+  std::int64_t n = 0;        ///< number of inter-event times
+  std::int64_t zeros = 0;    ///< those of 0, which are left out of densities and fits
+  double mean = 0.0;         ///< mean inter-event time before rescaling; NaN if there is none
   /// Coefficient of variation of the times: 1 for independent events, 0 for periodic ones, above 1
   /// for clustered ones; NaN for fewer than two times.
   double variation = 0.0;

@@ -14,8 +14,8 @@
 /// The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method;
 /// maximum likelihood is †.
 ///
-/// Sources: Clauset, Shalizi & Newman 2009, SIAM Review 51, 661 (range by Kolmogorov-Smirnov
-/// distance, Monte Carlo p-value, likelihood ratios); Deluca & Corral 2013, Acta Geophysica 61,
+/// Sources: Clauset, Shalizi & Newman 2009, SIAM Review 51, 661 (Monte Carlo p-value,
+/// likelihood ratios); Deluca & Corral 2013, Acta Geophysica 61,
 /// 1351 (double truncation); Vuong 1989, Econometrica 57, 307; Alstott, Bullmore & Plenz 2014, PLoS
 /// ONE 9, e85777 (Python package powerlaw: same comparisons, one-sided range).
 #ifndef LSM_POSTPROC_POWER_LAW_H
@@ -38,8 +38,6 @@ struct PowerLawFit {
   std::int64_t n = 0;           ///< events in [lo, hi]
   double ks = NAN;              ///< Kolmogorov-Smirnov distance
   double log_likelihood = NAN;
-  bool searched = false;   ///< the range was found by search_range()
-  double least = 0.0;      ///< lower limit of that search
   double step = 0.0;       ///< of ln(size) between bins; lo and hi are centres of bins; 0: no bins
   bool degenerate = true;  ///< no usable exponent: alpha, error, ks, likelihood are NaN
   std::string why;         ///< reason, one line
@@ -56,19 +54,10 @@ struct PowerLawFit {
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
                           double hi = std::numeric_limits<double>::infinity(), double step = 0.0);
 
-/// Finds the range whose fit has the smallest Kolmogorov-Smirnov distance, among those with at
-/// least 50 events and a ratio of the ends of at least 10. Both ends are searched † (after Deluca &
-/// Corral; Clauset et al. search the lower end only), over all pairs of 60 candidates, evenly
-/// spaced in log x between the extremes of the sample (trying every value would cost the square of
-/// n). The standard error does not include the choice of the range.
-/// \param least smaller values are left out; 0 or less: all positive values are used
-PowerLawFit search_range(const std::vector<double> &sorted, double least = 0.0, double step = 0.0);
-
 /// Monte Carlo p-value: fraction of synthetic samples that fit as poorly (whose Kolmogorov-Smirnov
-/// distance is at least that of the data), (k + 1) / (replicas + 1). Each replica is fitted as the
-/// data were: the exponent on a given range, or the range as well if it was searched; in that case
-/// values outside the range are resampled from the data. A small p (Clauset et al.: below 0.1)
-/// rejects the power law. Its standard error is sqrt(p (1 - p) / replicas).
+/// distance is at least that of the data), (k + 1) / (replicas + 1), see monte_carlo.h. A small p
+/// (Clauset et al.: below 0.1) rejects the power law. Its standard error is sqrt(p (1 - p) /
+/// replicas).
 /// \throws std::invalid_argument if the fit is degenerate
 double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int replicas,
                std::uint64_t seed);

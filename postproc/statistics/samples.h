@@ -68,15 +68,6 @@ inline std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
-/// The values divided by their mean.
-/// \throws std::invalid_argument if the mean is 0
-inline std::vector<double> over_mean(std::vector<double> values) {
-  const double mean = mean_of(values);
-  if (mean == 0.0) throw std::invalid_argument("all times or sizes are 0, expected some above it");
-  for (double &value : values) value /= mean;
-  return values;
-}
-
 /// Each value minus the preceding one; empty for fewer than two values.
 inline std::vector<double> differences(std::vector<double> values) {
   std::adjacent_difference(values.begin(), values.end(), values.begin());
@@ -89,25 +80,6 @@ inline std::vector<double> positive_ones(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !(x > 0.0); }),
                values.end());
   return values;
-}
-
-/// Largest difference between the cumulative distributions of a part of a sample and of the rest,
-/// both given as counts in the same classes.
-/// \param part counts of the part
-/// \param all counts of the whole sample
-/// \return NaN if the part or the rest is empty
-template <class Count>
-double distance_of_part(const Count *part, const Count *all, std::size_t classes) {
-  const auto n1 = static_cast<double>(std::accumulate(part, part + classes, Count{}));
-  const auto n2 = static_cast<double>(std::accumulate(all, all + classes, Count{})) - n1;
-  if (!(n1 > 0.0 && n2 > 0.0)) return NAN;
-  double below1 = 0.0, below2 = 0.0, largest = 0.0;
-  for (std::size_t c = 0; c < classes; ++c) {
-    below1 += part[c];
-    below2 += all[c] - part[c];
-    largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
-  }
-  return largest;
 }
 
 /// Linear interpolation between the points (x, y) with ascending x; constant beyond the ends.

@@ -14,7 +14,9 @@ PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, doub
   PowerLawFit none;
   none.lo = range.lo;
   none.hi = range.hi;
-  return without_numbers(none, fmt::format("the catalogue only has events from {:.4g}", least));
+  return without_numbers(none, least > 0.0
+                                   ? fmt::format("the catalogue only has events from {:.4g}", least)
+                                   : "no events");
 }
 
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
@@ -24,13 +26,10 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     std::vector<double> sorted = column(tables[i].events, &Event::size);
     std::sort(sorted.begin(), sorted.end());
     const double least = tables[i].complete_from, step = tables[i].size_step();
-    std::vector<PowerLawFit> laws;
-    const double smallest = settings.threshold.of(tables[i]).size;
-    for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least, step));
-    if (laws.empty() && smallest > 0.0)
-      laws.push_back(fit_from(sorted, paper_range(smallest), least, step));
-    if (settings.search || laws.empty()) laws.push_back(search_range(sorted, smallest, step));
-    for (const PowerLawFit &law : laws) {
+    std::vector<Range> ranges = settings.ranges;
+    if (ranges.empty()) ranges.push_back(paper_range(settings.threshold.of(tables[i]).size));
+    for (const Range &range : ranges) {
+      const PowerLawFit law = fit_from(sorted, range, least, step);
       SizeFit fit;
       fit.label = tables[i].label;
       fit.model = tables[i].info.model;

@@ -19,8 +19,7 @@ namespace LSM::postproc {
 /// What fit_sizes() fits.
 struct SizeFitSettings {
   std::vector<Range> ranges;  ///< of sizes (model energy); empty: paper_range() of each catalogue
-  bool search = false;        ///< in addition, the range found by search_range()
-  Threshold threshold;        ///< smallest size for paper_range() and for the search
+  Threshold threshold;        ///< smallest size for paper_range()
   int replicas = 100;         ///< for the Monte Carlo p-value; 0: none
   std::uint64_t seed = 1;
   bool compare = true;  ///< also fit the other laws of compare()

@@ -64,15 +64,22 @@ double tilted_variance(double z) {
   return 1.0 / z2 - 1.0 / (s * s);
 }
 
-double tilt_of_mean(double mean) {
-  if (mean > 0.5) return -tilt_of_mean(1.0 - mean);
-  // The mean is below -1/z, that of the untruncated exponential, so the root is in [-1/mean, 0].
-  double low = -1.0 / mean, high = 0.0;
+namespace {
+
+// The tilt z of a density on [0, 1] with a given mean, by Newton's method within a bracket. In bins
+// of width `step`, the mean is that of their centres: a value is the lower edge of its bin plus a
+// part that has the same density within the bin, so the mean of the edges is a difference of two
+// means, and likewise the variance.
+double tilt_of_mean(double mean, double step) {
+  if (mean > 0.5) return -tilt_of_mean(1.0 - mean, step);
+  const double edges = mean - 0.5 * step;
+  // The root is above the tilt of an infinite length.
+  double low = step > 0.0 ? -std::log1p(step / edges) / step : -1.0 / mean, high = 0.0;
   double z = mean < 0.25 ? low : std::max(low, 12.0 * (mean - 0.5));
-  for (int i = 0; i < 100; ++i) {
-    const double excess = tilted_mean(z) - mean;
+  for (int i = 0; i < 200; ++i) {
+    const double excess = tilted_mean(z) - step * tilted_mean(step * z) - edges;
     (excess > 0.0 ? high : low) = z;
-    double next = z - excess / tilted_variance(z);
+    double next = z - excess / Exponential{1.0, z, step}.variance();
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     if (std::fabs(next - z) <= 4e-16 * std::fabs(z)) break;
     z = next;
@@ -80,33 +87,12 @@ double tilt_of_mean(double mean) {
   return z;
 }
 
-namespace {
-
-// b for a mean of the centres of bins. A value is the lower edge of its bin plus a part that has
-// the same density within the bin, so the mean of the edges is a difference of two means, and
-// likewise the variance.
-double b_of_bins(double mean, double length, double step) {
-  if (mean > 0.5 * length && std::isfinite(length)) return -b_of_bins(length - mean, length, step);
-  const double edges = mean - 0.5 * step;
-  double low = -std::log1p(step / edges) / step;  // that of an infinite length
-  if (!std::isfinite(length)) return low;
-  double high = 0.0, b = low;
-  for (int i = 0; i < 200; ++i) {
-    const double excess = length * tilted_mean(b * length) - step * tilted_mean(b * step) - edges;
-    (excess > 0.0 ? high : low) = b;
-    double next = b - excess / Exponential{length, b, step}.variance();
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::fabs(next - b) <= 4e-16 * std::fabs(b)) break;
-    b = next;
-  }
-  return b;
-}
-
 }  // namespace
 
 Exponential Exponential::of_mean(double mean, double length, double step) {
-  if (step > 0.0) return {length, b_of_bins(mean, length, step), step};
-  return {length, std::isfinite(length) ? tilt_of_mean(mean / length) / length : -1.0 / mean};
+  if (std::isfinite(length))
+    return {length, tilt_of_mean(mean / length, step / length) / length, step};
+  return {length, step > 0.0 ? -std::log1p(step / (mean - 0.5 * step)) / step : -1.0 / mean, step};
 }
 
 double Exponential::log_z() const {

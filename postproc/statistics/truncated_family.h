@@ -18,7 +18,6 @@ namespace LSM::postproc {
 double log_normalisation(double z);  ///< ln((exp(z) - 1) / z)
 double tilted_mean(double z);        ///< increases from 0 (z = -infinity) to 1
 double tilted_variance(double z);    ///< derivative of tilted_mean
-double tilt_of_mean(double mean);    ///< inverse of tilted_mean; 0 < mean < 1
 
 /// Density proportional to exp(b u) for u in [0, length]; b < 0 if length is infinite.
 struct Exponential {

@@ -7,14 +7,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "block_length.h"
-#include "replicas.h"
+#include "monte_carlo.h"
 
 namespace LSM::postproc {
 
@@ -64,9 +63,17 @@ class Classes {
     for (std::size_t i = block.from; i < block.to; ++i) ++counts[class_of_[i]];
   }
 
-  // Distance between the counted values and the rest.
+  // Largest difference between the cumulative distributions of the counted values and of the rest.
   double distance(const Counts &counts) const {
-    return distance_of_part(counts.data(), all_.data(), count());
+    const auto n1 = static_cast<double>(std::accumulate(counts.begin(), counts.end(), 0u)),
+               n2 = static_cast<double>(class_of_.size()) - n1;
+    double below1 = 0.0, below2 = 0.0, largest = 0.0;
+    for (std::size_t c = 0; c < count(); ++c) {
+      below1 += counts[c];
+      below2 += all_[c] - counts[c];
+      largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
+    }
+    return largest;
   }
 
   // Ranks of some values scaled to (-1, 1); equal values have their mean rank. Only valid with as
@@ -119,46 +126,6 @@ double sorted_distance(const std::vector<double> &first, const std::vector<doubl
   return largest;
 }
 
-// Distances between the parts of divisions, each divided by its mean.
-class Forms {
- public:
-  Forms(const std::vector<double> &first, const std::vector<double> &second,
-        const std::vector<Block> &blocks, std::size_t of_first)
-      : of_first_(of_first), sums_(blocks.size()), counts_(blocks.size()) {
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      for (std::size_t i = blocks[b].from; i < blocks[b].to; ++i) {
-        const double value = i < first.size() ? first[i] : second[i - first.size()];
-        sorted_.push_back({value, b});
-        sums_[b] += value;
-        counts_[b] += 1.0;
-      }
-    std::sort(sorted_.begin(), sorted_.end());
-  }
-
-  // Called by several threads at once.
-  double distance(const std::vector<std::size_t> &divided) const {
-    std::vector<char> in_first(sums_.size());
-    std::array<std::vector<double>, 2> parts;
-    std::array<double, 2> sum = {}, count = {};
-    for (std::size_t i = 0; i < divided.size(); ++i) {
-      const std::size_t b = divided[i], part = i < of_first_ ? 0 : 1;
-      in_first[b] = part == 0;
-      sum[part] += sums_[b];
-      count[part] += counts_[b];
-    }
-    for (const auto &[value, b] : sorted_) {
-      const std::size_t part = in_first[b] ? 0 : 1;
-      parts[part].push_back(value * count[part] / sum[part]);
-    }
-    return sorted_distance(parts[0], parts[1]);
-  }
-
- private:
-  std::size_t of_first_;
-  std::vector<double> sums_, counts_;
-  std::vector<std::pair<double, std::size_t>> sorted_;
-};
-
 }  // namespace
 
 double two_sample_distance(std::vector<double> first, std::vector<double> second) {
@@ -173,7 +140,7 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
 }
 
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
-                              int replicas, std::uint64_t seed, int block, bool rescale) {
+                              int replicas, std::uint64_t seed, int block) {
   for (const std::vector<double> *sample : {&first, &second})
     if (sample->size() < 10)
       throw std::invalid_argument("two-sample test of " + std::to_string(sample->size()) +
@@ -181,11 +148,8 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   TwoSampleTest test;
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
   const std::size_t n = first.size() + second.size();
-  const std::vector<double> x = rescale ? over_mean(first) : first,
-                            y = rescale ? over_mean(second) : second;
-  Classes classes(x, y, n);
-  const bool by_classes =
-      !rescale && block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
+  Classes classes(first, second, n);
+  const bool by_classes = block == 0 && n > 2 * largest_exact_sample;
   if (block == 0) block = usual_block(classes, first.size(), n);
   // Longer blocks are just as valid.
   if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
@@ -200,19 +164,16 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   for (const Block &one : blocks_of(second.size(), block, first.size())) blocks.push_back(one);
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::optional<Forms> forms;
-  if (rescale) forms.emplace(x, y, blocks, of_first);
-  test.distance = two_sample_distance(x, y);
+  test.distance = two_sample_distance(first, second);
   // Counts by class for each block, so that the cost of a division does not grow with the number of
   // values.
   std::vector<Counts> in_block;
   if (by_classes) {
-    classes = Classes(x, y, coarse_classes);
+    classes = Classes(first, second, coarse_classes);
     in_block.assign(blocks.size(), Counts(coarse_classes));
     for (std::size_t i = 0; i < blocks.size(); ++i) classes.add(blocks[i], in_block[i]);
   }
   const auto distance = [&](const std::vector<std::size_t> &divided) {
-    if (rescale) return forms->distance(divided);
     Counts counts(classes.count());
     for (std::size_t i = 0; i < of_first; ++i)
       if (by_classes)
@@ -225,13 +186,14 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   // Sums of counts over counts are only exact up to rounding.
   const double least = distance(order) * (1.0 - 1e-12);
   Random random(seed);
-  const double p = share_of_draws(
-      replicas,
-      [&] {
-        shuffle(order, random);
-        return order;
-      },
-      [&](const std::vector<std::size_t> &divided) { return distance(divided) >= least; });
+  std::mutex drawing;
+  const double p = share_of_replicas(replicas, [&](int) {
+    std::unique_lock<std::mutex> lock(drawing);
+    shuffle(order, random);
+    const std::vector<std::size_t> divided = order;
+    lock.unlock();
+    return distance(divided) >= least;
+  });
   test.p = share_of(p, replicas);
   return test;
 }

@@ -42,12 +42,9 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
 /// \param replicas number of random divisions, at least 1
 /// \param block number of values in a block, at least 1; 0: the longer of the two block_length() of
 /// the ranks; with a length given, the cost of a division grows with the number of values
-/// \param rescale whether the forms are compared: each series, and each part of a division, is
-/// divided by its own mean, so that p allows for the means being estimated; all distances are exact
 /// \throws std::invalid_argument for fewer than 10 values in a series
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
-                              int replicas, std::uint64_t seed, int block = 0,
-                              bool rescale = false);
+                              int replicas, std::uint64_t seed, int block = 0);
 
 }  // namespace LSM::postproc
 

@@ -46,7 +46,7 @@ SLIDERS = {
 POSTPROCS = ("histograms {one} {chain} --no-picture -o o", "intervals {one} {chain} --replicas 2 --no-picture -o o",
              "intervals {chain} --method likelihood --replicas 2 --no-picture -o o", "fit {one} --range 1e-4:0.1 --replicas 2 --no-picture -o o",
              "magnitudes {one} --magnitude-bin 0.1 --no-picture -o o", "aftershocks {chain} --replicas 2 --no-picture -o o", "count {one}",
-             "compare {one} {chain} --rescale --replicas 10 -o o", "series {series} --no-picture -o o", "pick {series} -o o.csv",
+             "compare {one} {chain} --replicas 10 -o o", "series {series} --no-picture -o o", "pick {series} -o o.csv",
              "select {one} --min-size 1e-3 -o o.csv", "export {chain} --time-unit second --start-date 2000-01-01 --magnitude-constant 0 -o o.csv")
 
 COLUMNS = {}

@@ -140,7 +140,6 @@ TEST(Thresholds, EachIsWhatTheEstimatorsFind) {
     EXPECT_EQ(result.law.alpha, fit_sizes({table}, sizes)[0].fit.alpha);
     EXPECT_EQ(result.law.lo, result.threshold);
     EXPECT_EQ(result.law.hi, 1000.0 * result.threshold);
-    EXPECT_FALSE(result.law.searched);
     IntervalSettings times;
     times.thresholds = {result.threshold};
     times.replicas = 0;

@@ -17,7 +17,7 @@
 #include "coverage.h"
 #include "generalised_gamma.h"
 #include "log_histogram.h"
-#include "replicas.h"
+#include "monte_carlo.h"
 #include "size_fits.h"
 
 namespace {
@@ -458,7 +458,7 @@ TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) 
 TEST(GoodnessOfFit, ManyValues) {
   Source source(77);
   const std::size_t n = 10000;
-  ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
+  ASSERT_GT(n, largest_exact_sample);
   int below_tenth = 0, below_half = 0;
   constexpr int trials = 150;
   for (int i = 0; i < trials; ++i) {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "coverage.h"
-#include "ks_distance.h"
 #include "numerics/random.h"
+#include "monte_carlo.h"
 #include "power_law.h"
-#include "replicas.h"
+#include "sample.h"
 #include "truncated_family.h"
 
 namespace {
@@ -208,11 +208,9 @@ TEST(PowerLaw, DegenerateFitsGiveNoNumber) {
   LSM::Random random(6);
   const auto narrow = power_law_sample(50, 1.0, 1.0, 1.05, random);
   expect_degenerate(fit_power_law(narrow, 1.0, 1.05), "too narrow");
-  const auto sample = power_law_sample(40, 1.0, 1.0, 100.0, random);
-  expect_degenerate(search_range(sample), "no range holds");
-  expect_degenerate(search_range({}), "no range holds");
-  EXPECT_THROW(p_value(search_range(sample), sample, 10, 1), std::invalid_argument);
-  EXPECT_THROW(compare(sample, search_range(sample)), std::invalid_argument);
+  const PowerLawFit none = fit_power_law(narrow, 1.0, 1.05);
+  EXPECT_THROW(p_value(none, narrow, 10, 1), std::invalid_argument);
+  EXPECT_THROW(compare(narrow, none), std::invalid_argument);
 }
 
 TEST(PowerLaw, RefusesImpossibleInput) {
@@ -221,8 +219,6 @@ TEST(PowerLaw, RefusesImpossibleInput) {
   EXPECT_THROW(fit_power_law(sample, 0.0, 3.0), std::invalid_argument);
   EXPECT_THROW(fit_power_law(sample, 3.0, 3.0), std::invalid_argument);
   EXPECT_THROW(fit_power_law(sample, std::nan(""), 3.0), std::invalid_argument);
-  EXPECT_THROW(search_range({2.0, 1.0}), std::invalid_argument);
-  EXPECT_NO_THROW(search_range(sample, 0.5));
 }
 
 TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
@@ -235,28 +231,28 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
     }
     std::sort(p.begin(), p.end());
     // p takes the values 0.01 ... 1; the 0.3 % point of the distance is 1.8 / sqrt(300).
-    const double distance = KsDistance({p.data(), p.size()}, [](double x) { return x - 0.005; })();
+    const double distance = Sample(p).distance([](double x) { return x - 0.005; });
     EXPECT_LT(distance, 1.8 / std::sqrt(300.0));
   }
 }
 
 // The comparison used for replicas agrees with that of the distances themselves, even if these are
 // equal.
-TEST(KsDistance, AgainstAnotherComparesDistances) {
+TEST(Sample, ComparisonAgreesWithTheDistance) {
   LSM::Random random(3);
   const auto uniform = [](double x) { return x; };
   int as_far = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    std::vector<double> sample(300);
-    for (double &x : sample) x = random.uniform();
-    std::sort(sample.begin(), sample.end());
-    KsDistance ks({sample.data(), sample.size()}, uniform);
-    const double distance = ks();
-    EXPECT_GT(ks.against(distance), 0.0);
-    EXPECT_EQ(ks.against(std::nextafter(distance, 1.0)), 0.0);
-    EXPECT_GT(ks.against(std::nextafter(distance, 0.0)), 0.0);
+    std::vector<double> values(300);
+    for (double &x : values) x = random.uniform();
+    Sample sample(values);
+    sample.sort();
+    const double distance = sample.distance(uniform);
+    EXPECT_TRUE(sample.is_as_far(uniform, distance));
+    EXPECT_FALSE(sample.is_as_far(uniform, std::nextafter(distance, 1.0)));
+    EXPECT_TRUE(sample.is_as_far(uniform, std::nextafter(distance, 0.0)));
     const double other = 0.05;  // exceeded by about a third of the samples
-    EXPECT_EQ(ks.against(other) > 0.0, distance >= other);
+    EXPECT_EQ(sample.is_as_far(uniform, other), distance >= other);
     as_far += distance >= other;
   }
   EXPECT_GT(as_far, 20);
@@ -268,23 +264,19 @@ TEST(KsDistance, AgainstAnotherComparesDistances) {
 TEST(PowerLaw, ProbabilityOfManyValues) {
   LSM::Random random(12);
   const std::size_t n = 12000;
-  ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
+  ASSERT_GT(n, largest_exact_sample);
   constexpr int trials = 200;
-  for (const bool searched : {false, true}) {
-    int below_tenth = 0, below_half = 0, count = 0;
-    for (int i = 0; i < (searched ? trials / 4 : trials); ++i) {
-      const std::vector<double> sample = power_law_sample(n, 1.3, 1.0, 1e3, random);
-      const PowerLawFit fit =
-          searched ? search_range(sample, 1.0) : fit_power_law(sample, 1.0, 1e3);
-      ASSERT_FALSE(fit.degenerate);
-      const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
-      below_tenth += p <= 0.1;
-      below_half += p <= 0.5;
-      ++count;
-    }
-    expect_binomial(below_tenth, count, 0.1, searched ? "0.1, searched" : "0.1");
-    expect_binomial(below_half, count, 0.5, searched ? "0.5, searched" : "0.5");
+  int below_tenth = 0, below_half = 0;
+  for (int i = 0; i < trials; ++i) {
+    const std::vector<double> sample = power_law_sample(n, 1.3, 1.0, 1e3, random);
+    const PowerLawFit fit = fit_power_law(sample, 1.0, 1e3);
+    ASSERT_FALSE(fit.degenerate);
+    const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
+    below_tenth += p <= 0.1;
+    below_half += p <= 0.5;
   }
+  expect_binomial(below_tenth, trials, 0.1, "0.1");
+  expect_binomial(below_half, trials, 0.5, "0.5");
   // One in ten is from another law: detected in 12000 values, but in 1200 of them no more often
   // than by chance.
   std::vector<double> mixed = power_law_sample(n - n / 10, 1.3, 1.0, 1e3, random);
@@ -317,30 +309,16 @@ TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {
   }
 }
 
-TEST(PowerLaw, ProbabilityAllowsForTheSearch) {
-  // The range is searched in every replica; otherwise the data would fit better than any replica.
+TEST(PowerLaw, ProbabilityDependsOnTheSeedOnly) {
   LSM::Random random(13);
-  int rejected = 0;
-  double mean = 0.0;
-  constexpr int trials = 100;
-  for (std::uint64_t i = 0; i < trials; ++i) {
-    auto sample = power_law_sample(1000, 1.5, 1e-3, 1.0, random);
-    for (int k = 0; k < 500; ++k) sample.push_back(1e-3 * random.uniform(0.3, 1.0));
-    std::sort(sample.begin(), sample.end());
-    const PowerLawFit fit = search_range(sample);
-    const double p = p_value(fit, sample, 49, i + 1);
-    mean += p / trials;
-    if (p <= 0.1) ++rejected;
-    if (i == 0) {
-      EXPECT_EQ(p_value(fit, sample, 49, 1), p);
-      bool differs = false;
-      for (std::uint64_t seed = 2; seed < 8; ++seed)
-        differs = differs || p_value(fit, sample, 49, seed) != p;
-      EXPECT_TRUE(differs);
-    }
-  }
-  EXPECT_LE(rejected, 19);  // 10 expected and 3 standard deviations
-  EXPECT_NEAR(mean, 0.5, 0.12);
+  const auto sample = power_law_sample(1000, 1.5, 1e-3, 1.0, random);
+  const PowerLawFit fit = fit_power_law(sample, 1e-3, 1.0);
+  const double p = p_value(fit, sample, 49, 1);
+  EXPECT_EQ(p_value(fit, sample, 49, 1), p);
+  bool differs = false;
+  for (std::uint64_t seed = 2; seed < 8; ++seed)
+    differs = differs || p_value(fit, sample, 49, seed) != p;
+  EXPECT_TRUE(differs);
 }
 
 TEST(PowerLaw, OtherLawsAreRejected) {
@@ -374,32 +352,6 @@ TEST(PowerLaw, OtherLawsAreRejected) {
     EXPECT_NEAR(against_exponential[0].parameters[0].second, 1.0, 0.15);  // rate
   }
   gsl_rng_free(rng);
-}
-
-TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
-  LSM::Random random(9);
-  for (int i = 0; i < 5; ++i) {
-    // The exponent is 1.5 above 1e-3; a cluster just below is too narrow to be a range of its own.
-    std::vector<double> sample = power_law_sample(4000, 1.5, 1e-3, 1.0, random);
-    for (int k = 0; k < 2000; ++k) sample.push_back(1e-3 * random.uniform(0.5, 1.0));
-    std::sort(sample.begin(), sample.end());
-    const PowerLawFit fit = search_range(sample);
-    ASSERT_FALSE(fit.degenerate) << fit.why;
-    EXPECT_GT(fit.lo, 0.8e-3);
-    EXPECT_LT(fit.lo, 1e-2);
-    EXPECT_NEAR(fit.alpha, 1.5, 4.0 * fit.standard_error);
-    EXPECT_EQ(fit.n, std::count_if(sample.begin(), sample.end(),
-                                   [&](double x) { return x >= fit.lo && x <= fit.hi; }));
-    // Values outside the law are not included at the other end either.
-    for (int k = 0; k < 2000; ++k) sample.push_back(random.uniform(1.0, 1.5));
-    std::sort(sample.begin(), sample.end());
-    const PowerLawFit both = search_range(sample);
-    ASSERT_FALSE(both.degenerate) << both.why;
-    EXPECT_GT(both.lo, 0.8e-3);
-    EXPECT_LT(both.hi, 1.1);
-    EXPECT_GE(both.hi / both.lo, 10.0);
-    EXPECT_NEAR(both.alpha, 1.5, 4.0 * both.standard_error);
-  }
 }
 
 // The ratios are recomputed from the parameters alone, with every density normalised by quadrature.
@@ -557,35 +509,25 @@ TEST(PowerLaw, RangesInBins) {
   expect_degenerate(fit_power_law(sample, 1000.0, 1100.0, tenth), "fewer than two bins");
   expect_degenerate(fit_power_law(std::vector<double>(50, 1000.0), 1000.0, 1e6, tenth),
                     "same size");
-  const PowerLawFit searched = search_range(sample, 1000.0, tenth);
-  ASSERT_FALSE(searched.degenerate) << searched.why;
-  const double first = std::log(searched.lo) / tenth, last = std::log(searched.hi) / tenth;
-  EXPECT_NEAR(first, std::round(first), 1e-9);
-  EXPECT_NEAR(last, std::round(last), 1e-9);
-  EXPECT_NEAR(searched.alpha, 1.67, 5.0 * searched.standard_error);
 }
 
 TEST(PowerLaw, ProbabilityOfSizesInBinsIsUniformUnderTheNull) {
   LSM::Random random(44);
-  for (const bool searched : {false, true})
-    for (const int last : {45, 0}) {
-      if (searched && last == 0) continue;
-      int below_tenth = 0, below_half = 0;
-      const int trials = searched ? 60 : 200;
-      for (int i = 0; i < trials; ++i) {
-        const auto sample = sample_in_bins(1500, 1.67, tenth, 20, last, random);
-        const PowerLawFit fit =
-            searched ? search_range(sample, 1000.0, tenth)
-                     : fit_power_law(sample, 1000.0, last > 0 ? std::exp(last * tenth) : infinity,
-                                     tenth);
-        ASSERT_FALSE(fit.degenerate) << fit.why;
-        const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
-        below_tenth += p <= 0.1;
-        below_half += p <= 0.5;
-      }
-      expect_binomial(below_tenth, trials, 0.1, searched ? "0.1, searched" : "0.1");
-      expect_binomial(below_half, trials, 0.5, searched ? "0.5, searched" : "0.5");
+  for (const int last : {45, 0}) {
+    int below_tenth = 0, below_half = 0;
+    constexpr int trials = 200;
+    for (int i = 0; i < trials; ++i) {
+      const auto sample = sample_in_bins(1500, 1.67, tenth, 20, last, random);
+      const PowerLawFit fit =
+          fit_power_law(sample, 1000.0, last > 0 ? std::exp(last * tenth) : infinity, tenth);
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
+      below_tenth += p <= 0.1;
+      below_half += p <= 0.5;
     }
+    expect_binomial(below_tenth, trials, 0.1, "0.1");
+    expect_binomial(below_half, trials, 0.5, "0.5");
+  }
   // Another law is found out; as continuous sizes, even the right one is rejected.
   auto mixed = sample_in_bins(1000, 1.3, tenth, 20, 45, random);
   const auto other = sample_in_bins(1000, 2.5, tenth, 20, 45, random);
