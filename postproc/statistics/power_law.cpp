@@ -37,8 +37,12 @@ struct TruncatedPowerLaw {
   Exponential of_u;
 
   TruncatedPowerLaw(const PowerLawFit &fit, double b)
-      : lower(std::log(fit.lo) - 0.5 * fit.step),
-        of_u{std::log(fit.hi) + 0.5 * fit.step - lower, b, fit.step} {}
+      : lower(end(fit.lo, fit.step, -0.5)), of_u{end(fit.hi, fit.step, 0.5) - lower, b, fit.step} {}
+  // The logarithm of an end of the range; in bins, of an edge of the bin that is centred there.
+  static double end(double of, double step, double half) {
+    const double y = std::log(of);
+    return step > 0.0 ? step * (std::round(y / step) + half) : y;
+  }
   double upper() const { return lower + of_u.length; }
   double cdf(double y) const { return of_u.cdf(y - lower); }
   double quantile(double probability) const { return lower + of_u.quantile(probability); }

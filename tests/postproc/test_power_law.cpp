@@ -507,6 +507,19 @@ TEST(PowerLaw, RangesInBins) {
   const PowerLawFit longer = fit_power_law(sample, 10.0, 1e12, tenth);
   EXPECT_LT(longer.alpha, fit.alpha - 3.0 * fit.standard_error);
   expect_degenerate(fit_power_law(sample, 1000.0, 1100.0, tenth), "fewer than two bins");
+  // Three decades are 200 bins of 0.01 but for rounding: the last one, at M 6, belongs to the law.
+  const double hundredth = std::log(std::pow(10.0, 1.5 * 0.01));
+  const auto fine = sample_in_bins(500, 1.67, hundredth, 400, 600, random);
+  const PowerLawFit all = fit_power_law(fine, 1e6, 1e9, hundredth);
+  ASSERT_EQ(all.n, 500);
+  double mean = 0.0, of_law = 0.0, total = 0.0;
+  for (const double x : fine) mean += std::log(x) / hundredth / 500.0;
+  for (int bin = 400; bin <= 600; ++bin) {
+    const double p = std::exp((1.0 - all.alpha) * hundredth * (bin - 400));
+    of_law += p * bin;
+    total += p;
+  }
+  EXPECT_NEAR(of_law / total, mean, 1e-8);
   expect_degenerate(fit_power_law(std::vector<double>(50, 1000.0), 1000.0, 1e6, tenth),
                     "same size");
 }
