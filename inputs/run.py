@@ -30,6 +30,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from variables import declared
+
 STOPPED = 75
 INPUTS = Path(__file__).resolve().parent
 EXPORTS = re.findall(r"^export (.*)$", (INPUTS / "mpi-settings.sh").read_text(), re.M)
@@ -97,9 +99,8 @@ class Fault:
     @staticmethod
     def known(_):
         """Variables that fault.variables declares, and those of scenes for `extra`."""
-        declared = re.findall(r"^(\w+)\s*\|", (INPUTS / "fault.variables").read_text(), re.M)
-        also = re.search(r"^lsm_variables\s.*\salso (.*)", (INPUTS / "fault.in").read_text(), re.M)
-        return {*declared, *(also[1].split() if also else ())}
+        of_extras = (re.findall(r"^variable\s+(\w+)\s+index\b", path.read_text(), re.M) for path in INPUTS.glob("fault_*.in"))
+        return {one.name for one in declared()}.union(*of_extras)
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.settings, self.checkpoint, self.start = folder, settings, checkpoint, (ranks, binaries, "fault", "none")

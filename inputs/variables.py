@@ -2,13 +2,35 @@
 """The variables of fault.in, as fault.variables declares them."""
 import re
 from pathlib import Path
+from typing import NamedTuple
 
-__all__ = ["defaults"]
+__all__ = ["Variable", "cases", "declared", "defaults"]
+
+TABLE = Path(__file__).with_name("fault.variables")
+
+
+class Variable(NamedTuple):
+    """Cells of a line of the table."""
+    name: str
+    default: str
+    accepted: str
+    restart: str
+    header: str
+    unit: str
+    meaning: str
+
+
+def declared():
+    """All variables, in order."""
+    return [Variable(*(cell.strip() for cell in line.split("|"))) for line in TABLE.read_text().splitlines() if line.count("|") == 6]
+
+
+def cases():
+    """(condition, name, value) of each default for a case, such as ("preset absorbing", "dt", "0.12")."""
+    lines = re.findall(r"^when (.*?) : (.*)$", TABLE.read_text(), re.M)
+    return [(condition, *pair.split(None, 1)) for condition, pairs in lines for pair in pairs.split(", ")]
 
 
 def defaults(preset="leaky"):
     """Texts of the defaults with a preset, by name."""
-    text = Path(__file__).with_name("fault.variables").read_text()
-    cells = [[cell.strip() for cell in line.split("|")] for line in text.splitlines() if line.count("|") > 4]
-    preset_values = re.findall(rf"^when preset {preset} : (.*)", text, re.M)
-    return {row[0]: row[1] for row in cells} | dict(words.split() for line in preset_values for words in line.split(","))
+    return {one.name: one.default for one in declared()} | {name: value for condition, name, value in cases() if condition == f"preset {preset}"}

@@ -99,22 +99,22 @@ def check_scenes(root):
 
 def variable_table(root):
     """The table of variables.md, and the defaults that are plain values, from the declarations that fault.in reads."""
-    rows, defaults, cases, name_of_restart = [], {}, [], {"-": "run", "noted": "run", "free": "settings", "fixed": "fault"}
-    for line in (root / "inputs/fault.variables").read_text().splitlines():
-        if match := re.match(r"when (.*) : (.*)", line):
-            cases += [(name, f"`{match[1]}`", value) for name, value in (pair.split(None, 1) for pair in match[2].split(", "))]
-        elif line.count("|") == 6:
-            name, default, _, restart, _, unit, meaning = (cell.strip() for cell in line.split("|"))
-            template = re.fullmatch(r"\$\((.*):%\.0f\)", default)
-            if template:
-                default = "(" + re.sub(r"round\((.*)\)", r"\1", template[1]).replace("v_", "").replace("/", " / ") + ")"
-            elif "${" in default:
-                default = "(`" + default.replace("${", "").replace("}", "") + "`)"
-            else:
-                defaults[name] = default
-                default = "(none)" if default in ("", "-") else f"`{default}`"
-            default += "".join(f"; {when}: `{value}`" for of, when, value in cases if of == name)
-            rows.append(f"| `{name}` | {default} | {name_of_restart[restart]} | {unit} | {meaning} |")
+    sys.path.insert(0, str(root / "inputs"))
+    from variables import cases, declared
+    name_of_restart = {"-": "run", "noted": "run", "free": "settings", "fixed": "fault"}
+
+    def said(default):
+        template = re.fullmatch(r"\$\((.*):%\.0f\)", default)
+        if template:
+            return "(" + re.sub(r"round\((.*)\)", r"\1", template[1]).replace("v_", "").replace("/", " / ") + ")"
+        if "${" in default:
+            return "(`" + default.replace("${", "").replace("}", "") + "`)"
+        return "(none)" if default in ("", "-") else f"`{default}`"
+
+    rows, defaults = [], {one.name: one.default for one in declared() if not re.search(r"\$[({]", one.default)}
+    for one in declared():
+        in_cases = "".join(f"; `{when}`: {said(value)}" for when, name, value in cases() if name == one.name)
+        rows.append(f"| `{one.name}` | {said(one.default)}{in_cases} | {name_of_restart[one.restart]} | {one.unit} | {one.meaning} |")
     assert len(rows) > 40, rows
     return "| variable | default | of | unit | meaning |\n|---|---|---|---|---|\n" + "\n".join(rows) + "\n", defaults
 

@@ -27,14 +27,22 @@ void LSMRun::command(int narg, char **arg)
   if (narg < 1) error->all(FLERR, "lsm_run expects a number of steps, prefix, and every");
   const bigint steps = utils::bnumeric(FLERR, arg[0], false, lmp);
   std::uint64_t of_piece = 0, first = 0;
+  bool overwrite = false, resume = false, series = true, ruptures = true, history = true;
   LSMKeywordReader in(lmp, "lsm_run", 1, narg, arg);
   in.read_all({{"prefix", &prefix},
                {"every", &of_piece, LSM::Must::positive},
                {"after", &first},
-               {"earlier", LSM::Words{&earlier, {"keep", "refuse", "remove"}}},
-               {"unused", LSM::Action{1, [&] { unused.emplace_back(in.text()); }}},
+               {"overwrite", &overwrite},
+               {"resume", &resume},
+               {"series", &series},
+               {"ruptures", &ruptures},
+               {"history", &history},
                {"note", LSM::Action{1, [&] { further_variables.emplace_back(in.text()); }}}});
   in.require({"prefix", "every"});
+  earlier = resume || !in.has("overwrite") ? KEEP : overwrite ? REMOVE : REFUSE;
+  if (!series) unused.push_back(prefix + ".pe.bin");
+  if (!ruptures) unused.push_back(prefix + ".ruptures.csv");
+  if (!history) unused.push_back(prefix + ".slip.bin");
 
   const auto every = static_cast<bigint>(of_piece), after = static_cast<bigint>(first);
   const bigint last = after + steps;

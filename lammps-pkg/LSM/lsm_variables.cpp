@@ -21,8 +21,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 
 using namespace LAMMPS_NS;
+
+// names and values of the variables that were not given
+static const char *const DEFAULTS = "lsm_defaults";
 
 static bool same(const std::string &one, const std::string &other)
 {
@@ -48,18 +52,21 @@ void LSMVariables::command(int narg, char **arg)
   try {
     const LSMVariableTable table(text, path);
     refuse_repeated(table);
-    warn_of_others(table, static_cast<int>(files - arg) - 1, arg + 1);
+    forget_defaults(table);
     find_restart(table);
+    known.assign(std::min(arg + 2, files), files);
     std::string names[2];
     for (const LSMSceneVariable &one : table.variables) {
       define(table, one);
       if (one.restart != LSMSceneVariable::NONE) names[0] += one.name + " ";
       if (one.header) names[1] += one.name + " ";
     }
+    warn_of_others(table);
     refuse_ineffective(table);
     for (char **file = files; ++file < end;) refuse_earlier(*file);
     set(LSMScript::SAVED, "string", names[0]);
     set(LSMScript::HEADER, "string", names[1]);
+    set(DEFAULTS, "string", defaults);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "lsm_variables: {}", e.what());
   }
@@ -81,6 +88,11 @@ void LSMVariables::refuse_repeated(const LSMVariableTable &table) const
     std::map<std::string, std::string> first;
     for (std::size_t n = 0; n + 2 < words.size(); n++) {
       if ((words[n] != "-var" && words[n] != "-v") || !table.find(words[n + 1])) continue;
+      // LAMMPS takes all words up to the next option, and the first of them as the value
+      if (n + 3 < words.size() && words[n + 3].compare(0, 1, "-") != 0 && problem.empty())
+        problem = fmt::format("Variable {} is given several values, '{}' and '{}'; give one, or "
+                              "put its words in quotes",
+                              words[n + 1], words[n + 2], words[n + 3]);
       const auto [at, is_new] = first.emplace(words[n + 1], words[n + 2]);
       if (!is_new && at->second != words[n + 2] && problem.empty())
         problem = fmt::format("Variable {} is given twice, as '{}' and as '{}'; leave one out",
@@ -91,8 +103,22 @@ void LSMVariables::refuse_repeated(const LSMVariableTable &table) const
   if (!problem.empty()) error->all(FLERR, "{}", problem);
 }
 
+// LAMMPS keeps variables when a script clears the simulation: those that were defaults of an
+// earlier table, and still are what they were, are not given
+void LSMVariables::forget_defaults(const LSMVariableTable &table)
+{
+  if (input->variable->find(DEFAULTS) < 0) return;
+  for (const std::string &one : Tokenizer(value_now(DEFAULTS), "|").as_vector()) {
+    const auto equals = one.find('=');
+    const std::string name = one.substr(0, equals);
+    const char *const value = input->variable->retrieve(name.c_str());
+    if (table.find(name) && value && value == one.substr(equals + 1))
+      input->variable->set(name + " delete");
+  }
+}
+
 // a name misspelt on the command line is a variable that nothing reads
-void LSMVariables::warn_of_others(const LSMVariableTable &table, int narg, char **arg) const
+void LSMVariables::warn_of_others(const LSMVariableTable &table) const
 {
   if (comm->me != 0) return;
   // LAMMPS' function has another type in each version
@@ -100,8 +126,10 @@ void LSMVariables::warn_of_others(const LSMVariableTable &table, int narg, char 
   const auto names = Info(lmp).get_variable_names(count);
   for (int n = 0; n < count; n++) {
     const std::string name = names[n];
-    if (table.find(name) || name == LSMScript::SAVED || name == LSMScript::HEADER) continue;
-    if (std::none_of(arg, arg + narg, [&name](const char *known) { return name == known; }))
+    if (table.find(name) || name == LSMScript::SAVED || name == LSMScript::HEADER ||
+        name == DEFAULTS)
+      continue;
+    if (!std::count(known.begin(), known.end(), name))
       error->warning(FLERR, "Variable {} is not used by this script", name);
   }
 }
@@ -150,10 +178,14 @@ bool LSMVariables::follows_others(const LSMVariableTable &table, const LSMSceneV
     const std::string *const found = LSM::files::find(saved, name);
     return found ? *found : value_now(name);
   };
+  const auto now = [this](const std::string &name) { return value_now(name); };
   const std::string &text = table.default_of(one, then);
   const auto names = LSMVariableTable::named_in(text);
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string &name) { return !same(value_now(name), then(name)); }) &&
+  return (text != table.default_of(one, now) || std::any_of(names.begin(), names.end(),
+                                                            [&](const std::string &name) {
+                                                              return !same(value_now(name),
+                                                                           then(name));
+                                                            })) &&
          same(evaluated(LSMVariableTable::filled(text, then)), value);
 }
 
@@ -190,13 +222,22 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
   const std::string expected = one.expected(value);
   if (!expected.empty())
     error->all(FLERR, "Variable {} is '{}', but must be {}", one.name, value, expected);
-  if (one.accepted == LSMSceneVariable::SCENE)
-    LSMScript::beside(lmp, infile, value + ".in", "Variable " + one.name);
+  if (one.accepted == LSMSceneVariable::SCENE) {
+    // that scene reads the variables that it declares
+    std::ifstream in(LSMScript::beside(lmp, infile, value + ".in", "Variable " + one.name));
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      std::string command, name, style;
+      if (words >> command >> name >> style && command == "variable" && style == "index")
+        known.push_back(name);
+    }
+  }
   // LAMMPS' commands do not accept 1e5 as a whole number
   if (one.accepted.compare(0, 6, "whole ") == 0 && !utils::is_integer(value)) {
     input->variable->set(one.name + " delete");
     set(one.name, "index", fmt::format("{:.0f}", std::stod(value)));
   }
+  if (!is_given(one.name)) defaults += one.name + "=" + value_now(one.name) + "|";
 }
 
 void LSMVariables::refuse_ineffective(const LSMVariableTable &table)

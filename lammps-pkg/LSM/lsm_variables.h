@@ -30,10 +30,13 @@ class LSMVariables : public Command {
   std::string restart;               // the file that the run continues from, or ""
   LSM::files::Parameters saved;      // the parameters in its .info file
   std::vector<std::string> given;    // variables that were set before
+  std::vector<std::string> known;    // others that the script reads
+  std::string defaults;              // NAME=VALUE| of those that were not
 
   bool is_given(const std::string &) const;
   void refuse_repeated(const LSMVariableTable &) const;
-  void warn_of_others(const LSMVariableTable &, int, char **) const;
+  void forget_defaults(const LSMVariableTable &);
+  void warn_of_others(const LSMVariableTable &) const;
   void find_restart(const LSMVariableTable &);
   void define(const LSMVariableTable &, const LSMSceneVariable &);
   void refuse_ineffective(const LSMVariableTable &);

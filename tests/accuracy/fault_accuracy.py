@@ -271,19 +271,19 @@ class Fault:
 
     def start(self, one):
         """Runs inputs/fault.in."""
-        variables = dict(preset="absorbing", length=text(LENGTH), memory=text(MEMORY), massstep=0, prefix=one.prefix, loose=one.loose,
-                         dt=text(one.dt), massfloor=text(one.mass_floor), settle=round(COMPRESSION / one.dt), steps=round(one.time / one.dt),
-                         checkpoint=1000000000, overwrite="yes", thermo=100000, series="yes" if one.series else "no")
+        variables = dict(preset="absorbing", length=text(LENGTH), memory=text(MEMORY), prefix=one.prefix, loose=one.loose, dt=text(one.dt),
+                         massstep=text(one.mass_step), settle=round(COMPRESSION / one.dt), steps=round(one.time / one.dt), checkpoint=1000000000,
+                         overwrite="yes", thermo=100000, series="yes" if one.series else "no")
         one.seconds = self.run(self.inputs / "fault.in", variables, one.ranks, one.prefix).cpu
         events = self.events(f"{one.prefix}.catalogue.csv")
         one.events = events[events["t_start"] >= COMPRESSION + WARMUP]
 
     def long_runs(self):
-        ways = [("remove", 0.03, 1, True), ("remove", 0.06, 1, True), ("remove", 0.15, 1, True, 0.05), ("remove", 0.15, 2, False, 0.05)]
+        ways = [("remove", 0.03, 1, True), ("remove", 0.06, 1, True), ("remove", 0.15, 1, True, 0.15), ("remove", 0.15, 2, False, 0.15)]
         if not self.quick:
             ways = [("remove", 0.015, 1, True), ("remove", 0.03, 1, False), ("remove", 0.06, 1, True), ("remove", 0.09, 1, False),
-                    ("remove", 0.12, 1, False, 0.04), ("remove", 0.15, 1, True, 0.05), ("remove", 0.15, 2, False, 0.05),
-                    ("remove", 0.18, 1, False, 0.09), ("keep", 0.03, 1, False), ("keep", 0.06, 1, False)]  # yapf: disable
+                    ("remove", 0.12, 1, False, 0.12), ("remove", 0.15, 1, True, 0.15), ("remove", 0.15, 2, False, 0.15),
+                    ("remove", 0.18, 1, False, 0.18), ("keep", 0.03, 1, False), ("keep", 0.06, 1, False)]  # yapf: disable
         ways = [LongRun(15000.0 if self.quick else 90000.0, *way) for way in ways]
         # Two runs on one rank are done at a time, those on more ranks one after the other.
         with ThreadPoolExecutor(2) as two:
@@ -292,14 +292,14 @@ class Fault:
             if one.ranks > 1:
                 self.start(one)
         row = self.table("fault_long_runs.csv",
-                         "loose,dt,massfloor,ranks,time,events,time_in_events,after_30_to_40,largest,released,seconds,time_per_core_hour")
+                         "loose,dt,massstep,ranks,time,events,time_in_events,after_30_to_40,largest,released,seconds,time_per_core_hour")
         row(
             "# inputs/fault.in at length %g, events after the first %g time units of shear, by their begin. after_30_to_40: share of the events of "
             "1e-3 and more that begin 30 to 40 time units after the one before (the blocks swing with a period near 34). released: sum of the sizes; "
             "seconds: CPU time of all ranks", LENGTH, WARMUP)
         for one in ways:
             times, sizes = Sample(one, 1e-3).intervals, one.events["size"]
-            row("%s,%g,%g,%d,%g,%d,%.3f,%.3f,%.4g,%.4g,%.0f,%.3g", one.loose, one.dt, one.mass_floor, one.ranks, one.time, len(sizes),
+            row("%s,%g,%g,%d,%g,%d,%.3f,%.3f,%.4g,%.4g,%.0f,%.3g", one.loose, one.dt, one.mass_step, one.ranks, one.time, len(sizes),
                 math.fsum(one.events["t_end"] - one.events["t_start"]) / (one.time - WARMUP),
                 sum(30 < t < 40 for t in times) / len(times), max(sizes), math.fsum(sizes), one.seconds, 3600 * one.time / one.seconds)
         long = self.table(
@@ -391,8 +391,8 @@ PICKERS = (("exponential", 0), ("exponential", 0.45), ("exponential", 1.0), ("ex
 
 class LongRun:
 
-    def __init__(self, span, loose, dt, ranks, series, mass_floor=0.0):
-        self.loose, self.dt, self.ranks, self.series, self.mass_floor = loose, dt, ranks, series, mass_floor
+    def __init__(self, span, loose, dt, ranks, series, mass_step=0.0):
+        self.loose, self.dt, self.ranks, self.series, self.mass_step = loose, dt, ranks, series, mass_step
         self.time = span / 2 if loose == "keep" else span
         self.prefix = f"long_{loose}_{text(dt)}_{ranks}"
 

@@ -31,7 +31,7 @@ call() {
 
 call "$bin/lmp" "${scene[@]}"
 value() { sed -n "s/^$1 = //p" fault.restart.end.info; }
-for pair in hold=position contacts=all mass=r2 massfloor=0 massstep=0 "law=coulomb $(value mu) $(value mu)"; do
+for pair in hold=position contacts=all mass=r2 massstep=0 "law=coulomb $(value mu) $(value mu)"; do
   [ "$(value "${pair%%=*}")" = "${pair#*=}" ] || die "${pair%%=*} '$(value "${pair%%=*}")', ESyS-Particle has '${pair#*=}'"
 done
 cat >data.in <<'END'

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from data_files import header, same_bytes
 from programs import INPUTS, refused, run, scene, start
+from variables import declared
 
 SMALL = dict(length=20, width=15, settle=100, velocity=0.01, checkpoint=400, location="yes")
 
@@ -52,26 +53,25 @@ def test_words(lmp):
 
 
 def test_values(lmp):
-    run(lmp, small(prefix="a", seed=7, massfloor=0.05, stress=0.03, steps=500))
-    declared = [[cell.strip() for cell in line.split("|")] for line in (INPUTS / "fault.variables").read_text().splitlines()]
-    kept = {cells[0] for cells in declared if len(cells) == 7 and cells[3] != "-"}
+    run(lmp, small(prefix="a", seed=7, massstep=0.05, stress=0.03, steps=500))
+    kept = {one.name for one in declared() if one.restart != "-"}
     assert len(kept) > 20 and kept <= set(info("a.restart.end.info")), kept - set(info("a.restart.end.info"))
     for name, value, was in (("seed", 8, 7), ("length", 30, 20), ("width", 20, 15), ("mass", "r3", "r2"), ("loose", "keep", "remove"),
-                             ("faces", "none", "random"), ("seeds", "grid", "random"), ("linkratio", 1.05, 1), ("massfloor", 0, 0.05),
+                             ("faces", "none", "random"), ("seeds", "grid", "random"), ("linkratio", 1.05, 1), ("massstep", 0, 0.05),
                              ("preset", "absorbing", "leaky"), ("settle", 50, 100), ("mu", 0.5, 0.6)):
         refused(lmp, scene(restart="a.restart.end", **{name: value}),
                 f"Variable {name} is {value}, but restart file a.restart.end was written with {name} = {was}")
     refused(lmp, scene(restart="a.restart.end", steps=300), "steps = 300, but 500 of them are done; give as many or more")
     # Nothing has to be given again, and a value given again with other digits is the same.
-    run(lmp, scene(restart="a.restart.end", steps=900, massfloor="5e-2"))
-    run(lmp, small(prefix="b", seed=7, massfloor=0.05, stress=0.03, steps=500))
-    run(lmp, small(prefix="b", seed=7, massfloor=0.05, stress=0.03, steps=900, restart="b.restart.end"))
+    run(lmp, scene(restart="a.restart.end", steps=900, massstep="5e-2"))
+    run(lmp, small(prefix="b", seed=7, massstep=0.05, stress=0.03, steps=500))
+    run(lmp, small(prefix="b", seed=7, massstep=0.05, stress=0.03, steps=900, restart="b.restart.end"))
     same_bytes("a.catalogue.csv", "b.catalogue.csv")
     same_bytes("a.pe.bin", "b.pe.bin")
     # With another prefix, the header still says what the fault is.
     run(lmp, scene(restart="a.restart.end", steps=1000, prefix="look", velocity=0.02))
     said = header("look.catalogue.csv")
-    wanted = dict(seed="7", massfloor="0.05", stress="0.03", velocity="0.02", width="15")
+    wanted = dict(seed="7", massstep="0.05", stress="0.03", velocity="0.02", width="15")
     assert {name: said.get(name) for name in wanted} == wanted
 
 

@@ -5,8 +5,9 @@ import zlib
 from pathlib import Path
 
 import pytest
-from data_files import header
+from data_files import header, same_bytes
 from programs import INPUTS, refused, run, start
+from variables import declared
 
 SMALL = {"length": 20, "width": 15, "settle": 100, "velocity": 0.01, "checkpoint": 400, "steps": 400, "prefix": "a"}
 
@@ -118,6 +119,41 @@ def test_a_variable_given_twice(lmp):
     run(lmp, small("-var", "stress", "0.03", stress=0.03, steps=1))
 
 
+def test_several_values_of_a_variable(lmp):
+    """LAMMPS would take the first of them."""
+    refused(lmp, small("-var", "seed", 1, 2, 3), "Variable seed is given several values, '1' and '2'; give one, or put its words in quotes")
+    refused(lmp, small("-var", "law", "coulomb", 0.6, 0.7), "Variable law is given several values, 'coulomb' and '0.6'")
+
+
+TWICE = """include {inputs}/fault.in
+clear
+variable prefix delete
+variable prefix index b
+variable stress delete
+variable stress index 0.04
+{delete}
+include {inputs}/fault.in
+"""
+
+
+@pytest.mark.parametrize("first, second", [("leaky", "absorbing"), ("absorbing", "leaky")])
+def test_a_second_fault_after_the_first(lmp, first, second):
+    """Defaults of the first one are not values that were given."""
+    Path("twice.in").write_text(TWICE.format(inputs=INPUTS, delete=f"variable preset delete\nvariable preset index {second}"))
+    run(lmp, ["-in", "twice.in", *small(preset=None if first == "leaky" else first)[2:]])
+    run(lmp, small(preset=second, stress=0.04, prefix="c"))
+    assert header("a.catalogue.csv")["kt"] == {"leaky": "0.12", "absorbing": "0.5"}[first]
+    kept, alone = (info(f"{prefix}.restart.end.info") for prefix in "bc")
+    names = [one.name for one in declared() if one.name in alone and one.name != "prefix"]
+    assert len(names) > 20 and [kept[name] for name in names] == [alone[name] for name in names]
+    same_bytes("b.pe.bin", "c.pe.bin")
+
+
+def test_variables_of_further_scenes_are_known(lmp):
+    said = run(lmp, small(extra="fault_dump", every=200, evry=200, steps=1))
+    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["evry"]
+
+
 def test_coefficients_that_the_law_does_not_use(lmp):
     refused(lmp, small(law="coulomb 0.3 0.3", mu=0.9), "Variable mu is '0.9', but has no effect, as law is given, too")
     run(lmp, small(law="coulomb 0.9 0.9", mu=0.9, steps=1))
@@ -133,7 +169,6 @@ def test_coefficients_that_the_law_does_not_use(lmp):
     ({"leaping": "slip 1.5"}, {}, "Variable leaping is 'slip 1.5', but has no effect, as leap is no"),
     ({"history": "yes"}, {}, "Variable history is 'yes', but has no effect, as ruptures is no"),
     ({"stride": 2}, {"series": "no"}, "Variable stride is '2', but has no effect, as series is no"),
-    ({"faultviscosity": 0.1}, {"damped": "plates"}, "Variable faultviscosity is '0.1', but has no effect, as damped is plates"),
 ])
 def test_variables_that_do_nothing_beside_others(lmp, given, others, said):
     answer = refused(lmp, small(**given, **others), said)
@@ -168,14 +203,16 @@ def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
 
 def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     run(lmp, small())
-    assert info("a.restart.end.info")["faultviscosity"] == "5e-4"
-    run(lmp, scene(restart="a.restart.end", steps=500, viscosity=0.02, prefix="b"))
-    assert info("b.restart.end.info")["faultviscosity"] == "0.02"
-    assert header("b.catalogue.csv")["viscosity"] == "0.02"
+    assert (info("a.restart.end.info")["law"], info("a.restart.end.info")["history"]) == ("coulomb 0.6 0.6", "no")
+    run(lmp, scene(restart="a.restart.end", steps=500, ruptures="yes", memory=0.5, prefix="b"))
+    assert (info("b.restart.end.info")["history"], info("b.restart.end.info")["memory"]) == ("yes", "0.5")
+    assert Path("b.slip.bin").exists() and not Path("a.slip.bin").exists()
     # A variable that had a value of its own keeps it.
-    run(lmp, small(faultviscosity=0.3, prefix="c"))
+    run(lmp, small(ruptures="yes", history="no", prefix="c"))
     run(lmp, scene(restart="c.restart.end", steps=500, viscosity=0.02, prefix="d"))
-    assert info("d.restart.end.info")["faultviscosity"] == "0.3"
+    assert info("d.restart.end.info")["history"] == "no" and header("d.catalogue.csv")["viscosity"] == "0.02"
+    run(lmp, scene(restart="a.restart.end", steps=500, picker="average", prefix="e"))
+    assert info("e.restart.end.info")["memory"] == "0" and float(header("e.catalogue.csv")["lambda"]) == 0.99
 
 
 def test_files_of_an_earlier_run_do_not_seem_to_be_of_this_one(lmp, on_ranks):
@@ -223,8 +260,7 @@ def test_headers_state_what_runs(lmp):
 
 def test_headers_have_the_variables_of_the_table(lmp):
     run(lmp, small(ruptures="yes"))
-    rows = [[cell.strip() for cell in line.split("|")] for line in (INPUTS / "fault.variables").read_text().splitlines() if line.count("|") == 6]
-    stated = [row[0] for row in rows if row[4] == "header"]
+    stated = [one.name for one in declared() if one.header == "header"]
     assert len(stated) > 10
     for file in ("a.catalogue.csv", "a.ruptures.csv"):
         found = header(file)

@@ -6,8 +6,6 @@
 #include "lsm_keyword_reader.h"
 #include "lsm_script.h"
 
-#include <cstring>
-
 using namespace LAMMPS_NS;
 using LSM::Action;
 using LSM::Keywords;
@@ -18,7 +16,19 @@ static const std::string STYLE = "Compute lsm/events";
 LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
 {
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);
-  in.read_all(keywords(in));
+  std::string prefix;
+  in.read_all(keywords(in, prefix));
+  const auto named = [&](const char *key, std::string &file, const char *ending) {
+    if (file == "yes" && prefix.empty())
+      in.stop(std::string(key) + " is 'yes', but there is no prefix");
+    if (file == "yes") file = prefix + ending;
+    if (file == "no" || file == "none") file.clear();
+  };
+  named("series", events.series_file, ".pe.bin");
+  named("ruptures", events.ruptures_file, ".ruptures.csv");
+  named("history", events.history_file, ".slip.bin");
+  events.no_series = in.has("series") && events.series_file.empty();
+  events.no_history = in.has("history") && events.history_file.empty();
   ledger = ledger || watchdog.tolerance > 0.0;
   events.ruptures.keep_nonpositive = events.drops.keep_nonpositive;
   LSMScript::require_plain(lmp, STYLE + ": emergency", emergency_file);
@@ -35,7 +45,7 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
         in.stop(std::string("keyword ") + of_ruptures + " needs ruptures or history");
 }
 
-Keywords LSMEventOptions::keywords(LSMKeywordReader &in)
+Keywords LSMEventOptions::keywords(LSMKeywordReader &in, std::string &prefix)
 {
   const auto reading = [this, &in] {
     if (!LSM::from_string(in.text(), events.picker.reading))
@@ -48,19 +58,13 @@ Keywords LSMEventOptions::keywords(LSMKeywordReader &in)
     if (two.lower == two.upper)
       in.stop(in.key() + " needs two different groups, got " + two.lower + " twice");
   };
-  // "none" stands for no file
-  const auto file_or_none = [&in](std::string &file, bool &none) {
-    return Action{1, [&in, &file, &none] {
-                    none = strcmp(in.text(), "none") == 0;
-                    file = none ? "" : in.text();
-                  }};
-  };
   return {{"catalogue", &events.catalogue_file},
-          {"series", file_or_none(events.series_file, events.no_series)},
+          {"prefix", &prefix},
+          {"series", &events.series_file},
           {"stride", &events.series_stride, Must::positive},
           {"picker", Action{1, reading}},
           {"lambda", &events.picker.lambda, Must::fraction},
-          {"memory", &memory_time, Must::positive},
+          {"memory", &memory_time, Must::not_negative},
           {"minsize", &events.drops.min_size, Must::not_negative},
           {"nonpositive", &events.drops.keep_nonpositive},
           {"tangential", &events.tangential},
@@ -72,7 +76,7 @@ Keywords LSMEventOptions::keywords(LSMKeywordReader &in)
           {"interval", &events.interval, Must::positive},
           {"modulus", &events.modulus, Must::positive},
           {"ruptures", &events.ruptures_file},
-          {"history", file_or_none(events.history_file, events.no_history)},
+          {"history", &events.history_file},
           {"slipping", &events.slipping, Must::not_negative},
           {"driving", &events.driving, Must::positive},
           {"gap", &events.gap, Must::not_negative},

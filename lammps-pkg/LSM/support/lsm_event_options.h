@@ -28,7 +28,8 @@ struct LSMEventOptions {
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:
-  LSM::Keywords keywords(LSMKeywordReader &);
+  /// \param prefix of the files that are only said to be written, with *yes*
+  LSM::Keywords keywords(LSMKeywordReader &, std::string &prefix);
 };
 
 }    // namespace LAMMPS_NS
