@@ -336,6 +336,35 @@ def find_ruptures(*folders):
     ], tests)
 
 
+# ---- series that have the spectrum of a run and nothing else of it
+
+SPECTRUM, SURROGATES = FOLDER / "spectrum.csv", 3
+
+
+def spectrum_of(postproc, folder):
+    """Rows of spectrum.csv: rates of drops of the series of a run, and of series whose changes have its spectrum with random phases."""
+    series, header = lsm.read_series(folder / "fault.pe.bin"), lsm.read_catalogue(folder / "fault.catalogue.csv").header
+    pe, dt, rng = np.asarray(series["pe"][series["time"] >= LOADING]), float(header["dt"]), np.random.default_rng(1)
+    with tempfile.TemporaryDirectory() as work:
+        for number in range(1 + SURROGATES):
+            path = picked_again(postproc,
+                                slip_or_exchange.with_phases(pe, rng) if number else pe, dt, memory_of(header),
+                                Path(work) / f"{number}.csv")
+            sizes, time = lsm.read_catalogue(path)["size"], len(pe) * dt / 1000
+            yield dict(run=folder.name, fault=folder.name.split("_")[0], series=f"phases {number}" if number else "run", time=time,
+                       **{f"rate_{least:g}": np.sum(sizes >= least) / time
+                          for least in SIZES})
+
+
+def find_spectra(postproc, *folders):
+    rows = [row for row in (read(SPECTRUM) if SPECTRUM.exists() else []) if row["run"] not in {folder.name for folder in folders}]
+    rows += [row for folder in folders for row in spectrum_of(postproc, folder)]
+    write_table(
+        SPECTRUM,
+        ["Drops in 1000 time units of the series of a run, and of series whose changes have its spectrum with random phases (faults.py publish)"],
+        rows)
+
+
 # ---- bursts of single discs
 
 BURSTS = FOLDER / "bursts.csv"
@@ -398,6 +427,7 @@ def publish_runs(postproc, *names):
     find_ruptures(*full)
     pick_again(postproc, *(folder for folder in folders if "_120_" in folder.name))
     find_bursts(postproc, *(folder for folder in full if "_120_" in folder.name))
+    find_spectra(postproc, *(folder for folder in full if folder.name.endswith("_120_4")))
 
 
 # ---- figures of what was picked again
@@ -664,8 +694,84 @@ def budget_values():
                 yield Value(f"budget.{key}.{fault}.{length}", *over(runs, measure), "energy/1000" if key == "work" else "", len(runs), sources(runs))
 
 
+def share_values():
+    """Share of the drops of 0.001 to 0.1 that are slip, beyond two nulls: what random stretches of the run would show (where it was measured), and as many
+    as have an excess below -0.5, since waves take as often as they give."""
+    for fault in FAULTS:
+        for length in LENGTHS:
+            runs = runs_of(fault, length, column="friction_work")
+
+            def share(run, null):
+                of = (run.events["size"] >= 1e-3) & (run.events["size"] < 0.1)
+                excess = excess_of(run.path)[of]
+                if null == "random":
+                    return slip.slip_share(excess, run.events["chance"][of]), math.nan
+                return np.mean(excess > slip.SLIP) - np.mean(excess < -slip.SLIP), math.nan
+
+            for null, some in ("random", [run for run in runs if "chance" in run.events.dtype.names]), ("mirror", runs):
+                if some:
+                    found = [float(share(run, null)[0]) for run in some]
+                    yield Value(f"share.{null}.{fault}.{length}", *mean_and_error(found), "", len(some), sources(some))
+                    yield Value(f"share.{null}.{fault}.{length}.least", min(found), math.nan, "", len(some), sources(some))
+                    yield Value(f"share.{null}.{fault}.{length}.most", max(found), math.nan, "", len(some), sources(some))
+
+
+def spectrum_values():
+    """Rates of series with the spectrum of a run over those of the run."""
+    rows = read(SPECTRUM)
+    for fault in ("leaky", "reflecting"):
+        own, others = ([row for row in rows if row["fault"] == fault and (row["series"] == "run") == is_run] for is_run in (True, False))
+        for least in SIZES:
+            value, error, n = mean_of(others, f"rate_{least:g}")
+            full = float(own[0][f"rate_{least:g}"])
+            yield Value(f"spectrum.ratio.{fault}.{least:g}", value / full, error / full, "", n, "spectrum.csv")
+
+
+CROSSING = 15  # time of a P-wave through the blocks
+
+
+def after_crossings(run):
+    """Share of drops that begin within a crossing after one of at least 0.01, over that of random times outside drops, and with sizes shuffled."""
+    events, rng = run.events[run.events["size"] >= 1e-4], np.random.default_rng(1)
+    starts, ends, large = events["t_start"], events["t_end"], events["size"] >= 1e-2
+
+    def near(times, ends):
+        ends = np.sort(ends)
+        return np.mean(times - np.append(-np.inf, ends)[np.searchsorted(ends, times, "right")] < CROSSING)
+
+    times = rng.uniform(LOADING, ends.max(), 40000)
+    last = np.searchsorted(starts, times, "right") - 1
+    times = times[(last < 0) | (times > ends[last])]
+    share = near(starts, ends[large])
+    return share / near(times, ends[large]), share / np.mean([near(starts, ends[rng.permutation(large)]) for _ in range(20)])
+
+
+def crossing_values():
+    for fault in FAULTS:
+        for length in LENGTHS:
+            runs = runs_of(fault, length)
+            found = [after_crossings(run) for run in runs]
+            for name, some in zip(("outside", "shuffled"), zip(*found)):
+                yield Value(f"crossing.{name}.{fault}.{length}", *mean_and_error([float(x) for x in some]), "", len(runs), sources(runs))
+
+
+def cut_values(postproc):
+    """Gamma of times above 2.5 memories of the picker."""
+    for fault in FAULTS:
+        for length in (120, 945):
+            runs = runs_of(fault, length)
+            rows = []
+            for run in runs:
+                mean = 1000 / drops(run, 1e-4)[0]
+                rows += summary.rows_of(postproc, [run.path], ["1e-4"], begin=LOADING, shortest=2.5 * memory_of(run.events.header) / mean)
+            yield Value(f"cut.gamma.{fault}.{length}", *mean_of(rows, "gamma_0.0001", "gamma_error_0.0001")[:2], "", len(runs), sources(runs))
+
+
 def all_values(postproc):
-    return [*rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *rupture_values(), *budget_values()]
+    return [
+        *rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *rupture_values(), *budget_values(),
+        *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
+    ]
 
 
 if __name__ == "__main__":

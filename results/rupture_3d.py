@@ -66,6 +66,11 @@ class Plane:
         """Times, slips and mean slip rates from the slips of the records of a place."""
         return np.array([self.time, np.cumsum(more) - 0.5 * more, more / self.duration])
 
+    def seen(self, reference):
+        """When a reference arrived, had its slip been recorded in these intervals."""
+        ends = self.time[:, None] + 0.5 * self.duration[:, None] * [-1, 1]
+        return arrival([self.time, None, np.diff(np.interp(ends, reference[0], reference[1]))[:, 0] / self.duration])
+
     def at(self, x, z):
         """Curve and slip along dip at a place, linear between the four bins around it. \\raises ValueError beyond the plane"""
         parts = []
@@ -126,7 +131,7 @@ def stations_of(planes, reference, until):
             end = min(until, plane.time[-1], one[0][-1])
             rows.append(
                 dict(run=name, spacing=plane.spacing, reference="boundary integral", x=x, z=z) | misfit(curve, one[:3], until)
-                | rate_misfit(curve, one[:3], end)
+                | rate_misfit(curve, one[:3], end) | dict(reference_arrival=plane.seen(one))
                 | dict(end_dip=np.interp(end, plane.time, dip), reference_end_dip=np.interp(end, one[0], one[3])))
     return rows
 
