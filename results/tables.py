@@ -840,6 +840,73 @@ def rupture_packing_table():
     ], out)
 
 
+# ---- the article: from values.csv
+
+
+def keyed_table(head, rows, columns):
+    """A row for each of these texts, made of the keys that `columns` give for it; those without any number are left out. columns: {head: (key, form)}"""
+    found = values.read()
+
+    def cell(key, form):
+        return values.text_of(found[key].value, found[key].error, form) if key in found else "-"
+
+    cells = {row: [cell(key.format(row), form) for key, form in columns.values()] for row in rows}
+    return table([head, *columns], [[row.replace(".", ", ", 1), *some] for row, some in cells.items() if set(some) != {"-"}])
+
+
+FAULTS_AND_LENGTHS = [f"{fault}.{length}" for fault in article.FAULTS for length in article.LENGTHS]
+
+
+def drops_table():
+    """Drops of the three faults at all lengths."""
+    columns = {"drops >= 1e-4 in 1000 time units": ("rate.drops.{}.0.0001", "()"), "slips >= 0.1": ("rate.slips.{}.0.1", "()")}
+    columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
+    columns |= {"slip of 0.001 to 0.1, %, random null": ("share.random.{}", "%()"), "mirror null": ("share.mirror.{}", "%()")}
+    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns)
+
+
+def held_out_table():
+    """Packings 11 to 13, to which nothing was fitted."""
+    columns = {"exponent": ("exponent.held_out.{}", "()"), "gamma": ("gamma.held_out.{}", "()"), "B": ("B.held_out.{}", "()")}
+    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns | {"one drop in": ("mean_time.held_out.{}", "()")})
+
+
+def connected_slip_table():
+    """Ruptures by friction."""
+    columns = {f"ruptures >= {size}": (f"ruptures.rate.{{}}.{size}", "()") for size in ("0.001", "0.01", "0.1")}
+    columns |= {
+        "longest": ("ruptures.longest.{}", ".0f"), "mean time at one place": ("place.mean.{}", ".0f"), "variation": ("place.variation.{}", "()")
+    }
+    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns)
+
+
+def threshold_table():
+    """Ruptures >= 0.01 with other thresholds, at length 120."""
+    columns = {
+        f"{slipping} plate velocities, interval {0.6 * merged:g}": (f"ruptures.test.{{}}.{slipping}.{merged}.rate_0.01", "()")
+        for slipping, merged in article.TESTS
+    }
+    return keyed_table("fault", article.FAULTS, columns)
+
+
+def half_velocity_table():
+    """Rates at half the velocity over those at the full one, with the loading that lacks."""
+    rows = [f"{fault}.{size:g}" for fault in article.FAULTS for size in article.SIZES]
+    columns = {"in 1000 time units": ("velocity.full.{}", "()"), "half the velocity": ("velocity.slow.{}", "()")}
+    columns |= {"with the loading of the full one": ("velocity.loaded.{}", "()"), "over the first": ("velocity.ratio.loaded.{}", "()")}
+    return keyed_table("fault, drops of at least", rows, columns)
+
+
+def bursts_table():
+    """Stretches in which single discs ring."""
+    rows = [f"{row['fault']}.{row['packing']}" for row in read(article.BURSTS)]
+    columns = {"stretches with bursts": ("burst.bursts.{}", ".0f"), "of": ("burst.stretches.{}", ".0f")}
+    columns |= {"drops in them": ("burst.rate_in_bursts.{}", ".0f"), "elsewhere": ("burst.rate_else.{}", ".0f")}
+    columns |= {"gamma": ("burst.gamma.{}", ".2f"), "gamma without bursts": ("burst.gamma_else.{}", ".2f")}
+    columns |= {"exponent": ("burst.exponent.{}", ".2f"), "exponent without bursts": ("burst.exponent_else.{}", ".2f")}
+    return keyed_table("fault, packing", rows, columns)
+
+
 # ---- tables of studies
 
 
