@@ -104,7 +104,9 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
     curve.steadiness = steadiness(column_from(table, curve.sample.threshold.size, &Event::t_start),
                                   shuffles, settings.seed);
   }
-  times = positive_ones(std::move(times));
+  // Times of 0 occur, as events of zero length can start at the same time.
+  times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
+              times.end());
   curve.zeros = curve.n - static_cast<std::int64_t>(times.size());
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;

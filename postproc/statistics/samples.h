@@ -75,13 +75,6 @@ inline std::vector<double> differences(std::vector<double> values) {
   return values;
 }
 
-/// The values above 0. Times of 0 occur, as events of zero length can start at the same time.
-inline std::vector<double> positive_ones(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !(x > 0.0); }),
-               values.end());
-  return values;
-}
-
 /// Linear interpolation between the points (x, y) with ascending x; constant beyond the ends.
 inline double interpolate(const std::vector<double> &x, const std::vector<double> &y, double at) {
   const auto above = std::upper_bound(x.begin(), x.end(), at);

@@ -111,33 +111,7 @@ int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
   return std::max(1, static_cast<int>(std::lround(longer)));
 }
 
-double sorted_distance(const std::vector<double> &first, const std::vector<double> &second) {
-  const auto n1 = static_cast<double>(first.size()), n2 = static_cast<double>(second.size());
-  double largest = 0.0;
-  for (auto one = first.begin(), other = second.begin();
-       one != first.end() && other != second.end();) {
-    // Equal values are passed together.
-    const double value = std::min(*one, *other);
-    while (one != first.end() && *one == value) ++one;
-    while (other != second.end() && *other == value) ++other;
-    largest = std::max(largest, std::fabs(static_cast<double>(one - first.begin()) / n1 -
-                                          static_cast<double>(other - second.begin()) / n2));
-  }
-  return largest;
-}
-
 }  // namespace
-
-double two_sample_distance(std::vector<double> first, std::vector<double> second) {
-  if (first.empty() || second.empty())
-    throw std::invalid_argument("distance of two samples: one is empty");
-  for (const std::vector<double> *const sample : {&first, &second})
-    if (std::any_of(sample->begin(), sample->end(), [](double x) { return std::isnan(x); }))
-      throw std::invalid_argument("distance of two samples: not all values are numbers");
-  std::sort(first.begin(), first.end());
-  std::sort(second.begin(), second.end());
-  return sorted_distance(first, second);
-}
 
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
                               int replicas, std::uint64_t seed, int block) {
@@ -164,7 +138,9 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   for (const Block &one : blocks_of(second.size(), block, first.size())) blocks.push_back(one);
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  test.distance = two_sample_distance(first, second);
+  Counts of_series(n);
+  classes.add({0, first.size()}, of_series);
+  test.distance = classes.distance(of_series);
   // Counts by class for each block, so that the cost of a division does not grow with the number of
   // values.
   std::vector<Counts> in_block;

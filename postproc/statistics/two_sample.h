@@ -26,10 +26,6 @@ struct TwoSampleTest {
   Measured ratio;  ///< mean of the second series over that of the first
 };
 
-/// Kolmogorov-Smirnov distance between two samples.
-/// \throws std::invalid_argument if a sample is empty or contains NaN
-double two_sample_distance(std::vector<double> first, std::vector<double> second);
-
 /// Permutation test of the Kolmogorov-Smirnov distance. As events cluster, blocks of consecutive
 /// values are permuted between the series; permuting single values would reject too often for
 /// autocorrelated series.
