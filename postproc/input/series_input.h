@@ -39,8 +39,6 @@ class SeriesInput {
   SeriesInput(const std::string &path, const SeriesOptions &options);
 
   const PeSeriesInfo &info() const { return reader_.info(); }
-  /// Model time between samples.
-  double spacing() const { return info().dt * static_cast<double>(info().stride); }
 
   /// Reads the samples up to the end of the window. Reports a truncated last sample on standard
   /// error (lenient).
