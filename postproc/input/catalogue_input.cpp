@@ -232,6 +232,10 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   // The format is detected on the open file, as a pipe can be read only once.
   std::unique_ptr<files::Bytes> bytes = open_input(path);
   const std::string_view head = bytes->peek(head_size);
+  if (head.empty())
+    throw FileError(fmt::format(
+        "{}empty file{}, expected '{}1' of a model, or earthquakes", text::where(path, 1),
+        bytes->size() < 0 ? ", or a pipe that can be read only once" : "", catalogue_magic));
   const std::string format = options.format == "detect" ? detect_format(head) : options.format;
   if (options.format == "detect" && format == "models" && !head.empty() &&
       head.find(catalogue_magic) > 3 /* of a byte order mark */ && !files::is_utf16(head))

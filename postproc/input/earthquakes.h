@@ -54,8 +54,8 @@ std::string_view without_mark(std::string_view content);
 
 /// Detects the format of a file by its first bytes, after a byte order mark: '# lsm-catalogue'
 /// models, a line of column names (at most one of those needed may be missing) csv, '<' quakeml,
-/// '{' geojson, a first line of data that begins with YYYY/MM/DD scedc, and nine or more numbers
-/// zmap. Everything else is taken for models, whose reader reports what is missing.
+/// '{' geojson, a first line of data with YYYY/MM/DD, a time and a type scedc, and nine or more
+/// numbers zmap. Everything else is taken for models, whose reader reports what is missing.
 std::string detect_format(std::string_view content);
 
 /// Reads the earthquakes in the text of a file: all events but those whose type says that they are

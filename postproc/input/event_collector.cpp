@@ -8,7 +8,6 @@
 #include <functional>
 #include <set>
 
-#include "event_time.h"
 #include "files/file_error.h"
 #include "files/text.h"
 
@@ -39,13 +38,13 @@ bool is_no_earthquake(std::string_view type) {
          });
 }
 
-std::string bad_time(const Record &record) {
-  std::string text = record[Field::time];
-  for (const Field field : {Field::date, Field::year, Field::month, Field::day, Field::hour,
-                            Field::minute, Field::second})
-    if (!record[field].empty()) text += (text.empty() ? "" : " ") + record[field];
-  return "time is " + text::in_quotes(text) +
-         ", expected a date and time such as 1994-01-17T12:30:55.39Z";
+/// Degrees with a sign, or followed by N, S, E or W.
+bool parse_degrees(std::string_view text, double &value) {
+  const auto at = std::string_view("NESW").find(text.empty() ? ' ' : text.back());
+  if (at == std::string_view::npos) return text::parse(text, value);
+  if (!text::parse(text::trim(text.substr(0, text.size() - 1)), value) || value < 0.0) return false;
+  if (at >= 2) value = -value;
+  return true;
 }
 
 }  // namespace
@@ -58,13 +57,20 @@ void Collector::add(const Record &record, std::int64_t line) {
       value = NAN;
       return true;
     }
-    if (text::parse(text, value) && std::fabs(value) <= most) return true;
-    bad(line, fmt::format("{} is {}, expected a number", name, text::in_quotes(text)));
+    const bool good =
+        field == Field::magnitude ? text::parse(text, value) : parse_degrees(text, value);
+    if (good && std::fabs(value) <= most) return true;
+    const bool comma = text.find(',') != std::string::npos;
+    bad(line, fmt::format("{} is {}, expected a number{}", name, text::in_quotes(text),
+                          comma ? " with a decimal point" : ""));
     return false;
   };
-  const std::optional<double> at = time_of(record);
-  if (!at) return bad(line, bad_time(record));
-  event.time = *at;
+  if (!record.at)
+    return bad(
+        line, fmt::format("time is {}, expected {}", text::in_quotes(record.time),
+                          record.problem.empty() ? "a date and time such as 1994-01-17T12:30:55.39Z"
+                                                 : record.problem));
+  event.time = *record.at;
   if (!number(Field::latitude, "latitude", 90.0, event.latitude) ||
       !number(Field::longitude, "longitude", 360.0, event.longitude))
     return;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "event_time.h"
 #include "files/file_error.h"
 #include "files/text.h"
 
@@ -74,6 +75,8 @@ void read_geojson(std::string_view content, Collector &out) {
   if (!features.is_array()) out.fail(1, "no array 'features', expected GeoJSON");
   out.count_in("feature");
   std::int64_t number = 0;
+  Fields last_names;
+  TimeColumns times;
   for (const json &feature : features) {
     ++number;
     const json &properties = member(feature, "properties");
@@ -83,14 +86,19 @@ void read_geojson(std::string_view content, Collector &out) {
       names.push_back(name);
       values.push_back(text_of(value));
     }
+    if (names != last_names) times = TimeColumns(last_names = names);
     Record record = record_of(values, places_in(names));
+    record.time = times.texts(values);
+    double milliseconds = 0.0;
+    if (text::parse(times.first_text(values), milliseconds))
+      record.at = milliseconds / 86400e3;
+    else
+      record.at = times.time_of(values, record.problem);
     if (coordinates.is_array() && coordinates.size() >= 2) {
       record[Field::longitude] = text_of(coordinates[0]);
       record[Field::latitude] = text_of(coordinates[1]);
       if (coordinates.size() > 2) record[Field::depth] = text_of(coordinates[2]);
     }
-    double milliseconds = 0.0;
-    if (text::parse(record[Field::time], milliseconds)) record.at = milliseconds / 86400e3;
     out.add(record, number);
   }
 }
@@ -113,7 +121,8 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
       return text::trim(of.child(name).child_value("value"));
     };
     Record record;
-    record[Field::time] = value(origin, "time");
+    record.time = value(origin, "time");
+    record.at = parse_date(record.time, record.problem);
     record[Field::latitude] = value(origin, "latitude");
     record[Field::longitude] = value(origin, "longitude");
     record[Field::magnitude] = value(size, "mag");

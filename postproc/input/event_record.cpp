@@ -14,19 +14,8 @@ namespace {
 /// The names of each field, in its order, as columns and as properties in GeoJSON: in small
 /// letters, without blanks, signs and units. The first one that a file has counts.
 constexpr std::array<std::string_view, number_of_fields> known_names = {
-    "time datetime timeutc utctime datetimeutc origintime origintimeutc timestring timestamp eventtime",
-    "date origindate eventdate",
-    "year yr",
-    "month mon mo",
-    "day dy da",
-    "hour hr ho",
-    "minute min mi",
-    "second seconds sec se",
-    "latitude lat",
-    "longitude lon long lng",
-    "mag magnitude mw",
-    "eventtype evtype etype type",
-    "depth dep depthkm"};
+    "latitude lat latitud", "longitude lon long lng longitud", "mag magnitude mw magnitud",
+    "eventtype evtype etype type", "depth dep depthkm profundidad"};
 
 /// A name as in `known_names`.
 std::string plain(std::string_view name) {

@@ -22,14 +22,6 @@ bool is_missing(std::string_view text);
 
 /// What files may hold of an event.
 enum class Field {
-  time,
-  date,
-  year,
-  month,
-  day,
-  hour,
-  minute,
-  second,
   latitude,
   longitude,
   magnitude,
@@ -42,7 +34,9 @@ constexpr auto number_of_fields = static_cast<std::size_t>(Field::number_of_fiel
 /// One event as in the file, with empty texts for what the file does not have.
 struct Record {
   std::array<std::string, number_of_fields> texts = {};
-  std::optional<double> at = {};  ///< the time, in formats that have it as a number
+  std::string time = {};          ///< its texts, for messages
+  std::optional<double> at = {};  ///< days since 1970, unless the time cannot be read
+  std::string problem = {};       ///< what was expected instead of such a time, if known
   double depth_per_km = 1.0;
 
   std::string &operator[](Field field) { return texts[static_cast<std::size_t>(field)]; }

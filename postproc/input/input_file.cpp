@@ -5,7 +5,9 @@
 #include <zlib.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -119,6 +121,9 @@ class Unxzed : public Unpacked {
 }  // namespace
 
 std::unique_ptr<Bytes> open_input(const std::string &path) {
+  std::error_code ignored;
+  if (path == "-" && !std::filesystem::exists(path, ignored))
+    throw FileError("-: no such file, expected /dev/stdin for standard input");
   auto bytes = std::make_unique<files::FileBytes>(path);
   const std::string_view program = files::compressed_by(*bytes);
   if (program == "gzip") return std::make_unique<Gunzipped>(std::move(bytes));

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "event_time.h"
 #include "files/catalogue.h"
@@ -40,39 +41,52 @@ struct Lines {
   }
 };
 
-/// Splits a line at a separator, except within double quotes (RFC 4180).
-Fields split_quoted(std::string_view line, char separator) {
+/// Splits a line at a separator, except within double quotes (RFC 4180); a blank stands for any
+/// number of blanks and tabs.
+/// \param open set to whether a field that begins with a quote does not end
+/// \param odd set to whether there is more in a field after its quotes
+Fields split(std::string_view line, char separator, bool *open = nullptr, bool *odd = nullptr) {
+  if (open) *open = false;
+  if (odd) *odd = false;
+  if (separator == ' ') {  // after the sign of a comment
+    const std::size_t begin = line.find_first_not_of(" \t#%");
+    return split_blanks(line.substr(std::min(begin, line.size())));
+  }
   Fields fields(1);
-  bool quoted = false;
+  bool quoted = false, begins = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') {
       const bool doubled = quoted && i + 1 < line.size() && line[i + 1] == '"';
+      if (!quoted) begins = text::trim(fields.back()).empty();
       if (doubled) fields.back() += line[i++];
       if (!doubled) quoted = !quoted;
+      if (odd && !quoted && i + 1 < line.size() && line[i + 1] != separator) *odd = true;
     } else if (line[i] == separator && !quoted) {
       fields.emplace_back();
     } else {
       fields.back() += line[i];
     }
   }
+  if (open) *open = quoted && begins;
   return fields;
 }
 
 /// A line of column names.
 struct Header {
+  std::string_view line;
   char separator = ',';
-  std::size_t columns = 0;
+  Fields names;
   Places places{};
+  TimeColumns times;
   Fields missing;  ///< names of what an event needs and the line lacks, out of 4
 
-  Header(std::string_view line, char separator_in) : separator(separator_in) {
-    const Fields names = split_quoted(line, separator);
-    columns = names.size();
+  Header(std::string_view line_in, char separator_in)
+      : line(text::trim(line_in)), separator(separator_in), names(split(line, separator)) {
+    while (names.size() > 1 && text::trim(names.back()).empty()) names.pop_back();
     places = places_in(names);
+    times = TimeColumns(names);
     const auto has = [this](Field field) { return places[static_cast<std::size_t>(field)] >= 0; };
-    if (!has(Field::time) && !has(Field::date) &&
-        !(has(Field::year) && has(Field::month) && has(Field::day)))
-      missing.push_back("time");
+    if (!times.has_date()) missing.push_back("time");
     if (!has(Field::latitude)) missing.push_back("latitude");
     if (!has(Field::longitude)) missing.push_back("longitude");
     if (!has(Field::magnitude)) missing.push_back("mag");
@@ -83,56 +97,193 @@ struct Header {
 
 /// The column names in a line, which may begin as a comment (FDSN), by the separator that finds
 /// most of what an event needs.
-Header header_in(std::string_view line) {
-  Header best(line, ',');
-  for (const char separator : {';', '|', '\t'}) {
+Header header_in(std::string_view line, std::string_view separators = ",;|\t ") {
+  Header best(line, separators.front());
+  for (const char separator : separators.substr(1)) {
+    if (separator == ' ' && line.find_first_of(",;|\t") != line.npos) continue;
     Header other(line, separator);
-    if (other.missing.size() < best.missing.size()) best = other;
+    if (other.missing.size() < best.missing.size()) best = std::move(other);
   }
   return best;
 }
 
-/// Goes on to the line of column names or, if there is none, to the first that is no comment.
-Header take_header(Lines &lines) {
-  while (lines.next(true)) {
-    const Header header = header_in(lines.line);
-    if (header.likely() || !lines.is_comment()) return header;
+/// Goes on to the line of column names, or returns the first line that is no comment. Before the
+/// names may be a few lines with fewer fields, such as a title, or sep=; for spreadsheets.
+Header take_header(Lines &lines, std::string_view separators = ",;|\t ") {
+  constexpr std::size_t most_lines = 50;
+  std::vector<std::string_view> before;
+  const Lines begin = lines;
+  while (before.size() < most_lines && lines.next(true)) {
+    Header header = header_in(lines.line, separators);
+    const bool after_title = std::all_of(before.begin(), before.end(), [&](std::string_view line) {
+      return split(line, header.separator).size() < header.names.size();
+    });
+    if ((before.empty() ? header.likely() : header.missing.empty()) && after_title) return header;
+    if (!lines.is_comment()) before.push_back(lines.line);
   }
-  return Header({}, ',');
+  lines = begin;
+  while (lines.next(true) && lines.is_comment()) continue;
+  return header_in(lines.line, separators);
+}
+
+/// The lines of a table with names of columns. Names that are repeated, as in joined files, are no
+/// line; other names count from there on.
+class Table {
+ public:
+  explicit Table(std::string_view content) : lines_{content}, header(take_header(lines_)) {
+    number = lines_.number;
+  }
+
+ private:
+  Lines lines_;
+
+ public:
+  Header header;
+  Fields fields;             ///< of the line
+  std::int64_t number = 0;   ///< of the line, or the first of its lines
+  std::string problem;       ///< why the line has no fields
+  bool other_names = false;  ///< whether the line is one of other names of columns
+
+  /// Goes on to the next line.
+  bool next() {
+    other_names = false;
+    while (lines_.next(true)) {
+      number = lines_.number;
+      problem.clear();
+      if (text::trim(lines_.line) == header.line ||
+          lines_.line.find_first_not_of("-=+| \t") == std::string_view::npos)  // a rule
+        continue;
+      if (lines_.is_comment() ? take_names() : (take_fields(), !is_data() && take_names())) {
+        other_names = true;
+        return true;
+      }
+      if (!lines_.is_comment()) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool is_data() const { return problem.empty() && header.times.has_digits(fields); }
+
+  bool take_names() {
+    Header other = header_in(lines_.line);
+    if (!other.missing.empty()) return false;
+    header = std::move(other);
+    return true;
+  }
+
+  void take_fields() {
+    bool open = false, odd = false;
+    fields = split(lines_.line, header.separator, &open);
+    // A quoted field may have several lines.
+    constexpr int most_lines = 100;
+    Lines ahead = lines_;
+    const char *const begin = lines_.line.data();
+    for (int i = 0; open && i < most_lines && ahead.next(true); ++i) {
+      const auto size = static_cast<std::size_t>(ahead.line.data() + ahead.line.size() - begin);
+      // Unless a quote is missing, and this is the next line of data.
+      if (split(ahead.line, header.separator).size() == header.names.size()) break;
+      Fields longer = split({begin, size}, header.separator, &open, &odd);
+      if (odd) break;
+      if (open || longer.size() != header.names.size()) continue;
+      fields = std::move(longer);
+      lines_ = ahead;
+      return;
+    }
+    const std::size_t expected = header.names.size();
+    while (fields.size() > expected && text::trim(fields.back()).empty()) fields.pop_back();
+    if (fields.size() > expected && is_text_last()) {
+      for (std::size_t i = expected; i < fields.size(); ++i)
+        fields[expected - 1] += header.separator + fields[i];
+      fields.resize(expected);
+    }
+    if (fields.size() == expected) return;
+    problem = fmt::format("{} fields, expected {}", fields.size(), expected);
+    if (open || odd)
+      problem += " (a quote is not closed)";
+    else if (fields.size() > expected)
+      problem += fmt::format(" (a field with a '{}' needs quotes)", header.separator);
+  }
+
+  /// Whether separators in excess can only be in the last column: it is not used, and those before
+  /// it that are not used hold no text.
+  bool is_text_last() const {
+    const std::size_t last = header.names.size() - 1;
+    const auto is_used = [this](std::size_t i) {
+      return header.times.uses(i) ||
+             std::find(header.places.begin(), header.places.end(),
+                       static_cast<std::ptrdiff_t>(i)) != header.places.end();
+    };
+    double value = 0.0;
+    for (std::size_t i = 0; i < last; ++i)
+      if (!is_used(i) && !is_missing(text::trim(fields[i])) &&
+          !text::parse(text::trim(fields[i]), value))
+        return false;
+    return !is_used(last);
+  }
+};
+
+bool is_small_letters(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+/// Whether a line begins with a date, a time of day and a type of event as in SCEDC's files.
+bool begins_as_scedc(const Fields &f) {
+  return f.size() > 2 && f[0].size() == 10 && f[0][4] == '/' && parse_date(f[0] + ' ' + f[1]) &&
+         f[2].size() == 2 && is_small_letters(f[2]) && f[2][0] != 'm' /* ml, a magnitude */;
 }
 
 }  // namespace
 
 void read_columns(std::string_view content, Collector &out) {
-  Lines lines{content};
-  const Header header = take_header(lines);
-  if (!header.missing.empty())
-    out.fail(lines.number, "column names without " + either(header.missing, " and ") +
+  Table table(content);
+  if (!table.header.missing.empty())
+    out.fail(table.number, "column names without " + either(table.header.missing, " and ") +
                                ", expected such as those of ComCat, NEIC, NCEDC, GeoNet or FDSN");
-  while (lines.next()) {
-    const Fields fields = split_quoted(lines.line, header.separator);
-    if (fields.size() == header.columns)
-      out.add(record_of(fields, header.places), lines.number);
-    else
-      out.bad(lines.number, fmt::format("{} fields, expected {}", fields.size(), header.columns));
+  const auto all_lines = [](const Table &from) {
+    return [from](const TimeColumns::UseLine &use) {
+      for (Table other = from; other.next() && !other.other_names;)
+        if (other.problem.empty()) use(other.fields);
+    };
+  };
+  table.header.times.for_each_line = all_lines(table);
+  while (table.next()) {
+    TimeColumns &times = table.header.times;
+    if (table.other_names) {
+      times.for_each_line = all_lines(table);
+    } else if (!table.problem.empty()) {
+      out.bad(table.number, table.problem);
+    } else {
+      Record record = record_of(table.fields, table.header.places);
+      record.time = times.texts(table.fields);
+      const bool empty =
+          record.time.empty() && std::all_of(record.texts.begin(), record.texts.end(), is_missing);
+      if (empty) continue;  // as after an export of a spreadsheet
+      record.at = times.time_of(table.fields, record.problem);
+      out.add(record, table.number);
+    }
   }
 }
 
 void read_scedc(std::string_view content, Collector &out) {
   for (Lines lines{content}; lines.next();) {
     Fields f = split_blanks(lines.line);
+    const std::size_t fields = f.size();
     double number = 0.0;
     for (const std::size_t text : {3u, 5u})  // a number instead: the text is missing
       if (f.size() > text && text::parse(f[text], number))
         f.insert(f.begin() + static_cast<std::ptrdiff_t>(text), std::string());
-    if (f.size() < 9) {
+    const bool good = f.size() >= 9 && begins_as_scedc(f) && f[3].size() <= 1 &&
+                      is_small_letters(f[3]) && f[5].size() <= 2 && is_small_letters(f[5]);
+    if (!good) {
       out.bad(lines.number, fmt::format("{} fields, expected date, time, event type, place type, "
                                         "magnitude, its type, latitude, longitude, depth, ...",
-                                        split_blanks(lines.line).size()));
+                                        fields));
       continue;
     }
     Record record;
-    record[Field::time] = f[0] + ' ' + f[1];
+    record.time = f[0] + ' ' + f[1];
+    record.at = parse_date(record.time);
     record[Field::type] = f[2];
     record[Field::magnitude] = f[5] == "n" ? std::string() : f[4];
     record[Field::latitude] = f[6];
@@ -143,26 +294,29 @@ void read_scedc(std::string_view content, Collector &out) {
 }
 
 void read_zmap(std::string_view content, Collector &out) {
-  constexpr Field columns[] = {Field::longitude, Field::latitude,  Field::year,  Field::month,
-                               Field::day,       Field::magnitude, Field::depth, Field::hour,
-                               Field::minute,    Field::second};
+  const Fields names =
+      split_blanks("longitude latitude year month day mag depth hour minute second");
+  const Places places = places_in(names);
+  TimeColumns times(names);
   for (Lines lines{content}; lines.next();) {
-    const Fields f = split_blanks(lines.line);
-    Record record;
+    Fields f = split_blanks(lines.line);
     double number = 0.0;
     bool good = f.size() >= 9;
-    for (std::size_t i = 0; good && i < std::min(f.size(), std::size(columns)); ++i) {
-      good = text::parse(f[i], number) || is_missing(f[i]);
-      record[columns[i]] = f[i];
-    }
-    record.at = good ? time_in_parts(record) : std::nullopt;
-    if (record.at)
-      out.add(record, lines.number);
-    else
+    f.resize(names.size());
+    for (const std::string &text : f)
+      good = good && (text::parse(text, number) || is_missing(text));
+    std::string problem;
+    const std::optional<double> at = good ? times.time_of(f, problem) : std::nullopt;
+    if (!at) {
       out.bad(
           lines.number,
           "no event of ZMAP, expected longitude, latitude, year (of four digits), month, day, magnitude, "
           "depth, hour, minute and, if known, second");
+      continue;
+    }
+    Record record = record_of(f, places);
+    record.at = at;
+    out.add(record, lines.number);
   }
 }
 
@@ -173,10 +327,11 @@ std::string detect_format(std::string_view content) {
   const std::string_view first = lines.next() ? text::trim(lines.line) : std::string_view();
   if (first.substr(0, 1) == "<") return "quakeml";
   if (first.substr(0, 1) == "{") return "geojson";
-  Lines again{content};
-  if (take_header(again).likely()) return "csv";
-  if (first.size() > 10 && first[4] == '/' && parse_date(first.substr(0, 10))) return "scedc";
   const Fields fields = split_blanks(first);
+  Lines again{content}, blanks{content};
+  if (take_header(again, ",;|\t").likely()) return "csv";
+  if (begins_as_scedc(fields)) return "scedc";
+  if (take_header(blanks, " ").likely()) return "csv";
   double number = 0.0;
   const bool numbers =
       fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 9, [&](auto &field) {

@@ -112,10 +112,18 @@ TEST(Earthquakes, DatesAndTimes) {
   EXPECT_EQ(parse_date("2016-12-31T23:59:60Z"), 17167.0);  // a leap second
   EXPECT_NEAR(*parse_date("1999-10-17T23:24:60.99Z"),
               10881.0 + (23 * 60 + 25) / 1440.0 + 0.99 / 86400, 1e-9);
-  for (const char *bad :
-       {"", "2000", "2000-13-01", "2001-02-29", "2000-03-01T25:00", "2000-03-01T06",
-        "2000-03-01T06:61", "2000-03-01T06:00:61", "2000-03-01T06:00x", "2000-3-1", "yesterday"})
+  for (const char *bad : {"", "2000", "2000-13-01", "2001-02-29", "2000-03-01T25:00",
+                          "2000-03-01T06", "2000-03-01T06:61", "2000-03-01T06:00:91",
+                          "2000-03-01T06:00x", "03/04/2000", "13/13/2000", "3 Mar 00", "0099-03-01",
+                          "2000-03-01T06:00 JST", "2000-03-01T13:00 PM", "2000301", "yesterday"})
     EXPECT_FALSE(parse_date(bad)) << bad;
+  for (const char *other : {"2000-3-1 6:00", "2000.03.01 06:00:00", "20000301060000",
+                            "200003010600", "20000301T060000Z", "2000-03-01 06:00:00 UTC",
+                            "1 Mar 2000 06:00", "March 1, 2000 6:00:00 AM", "2000-03-01 05:60:00",
+                            "2000-03-01 06:01:-60", "2000-03-01T05:59:59,999999999"}) {
+    ASSERT_TRUE(parse_date(other)) << other;
+    EXPECT_NEAR(*parse_date(other), 11017.25, 1e-9) << other;
+  }
   EXPECT_EQ(date_text(11017.25), "2000-03-01T06:00Z");
 }
 
@@ -261,7 +269,143 @@ TEST(Earthquakes, YearsOfTwoDigitsAreRefused) {
   }
   EXPECT_TRUE(
       contains(message_of<FileError>([] { read("year,month,day,lat,lon,mag\n83,6,15,1,1,4\n"); }),
-               "file:2: time is '83 6 15', expected a date and time"));
+               "file:2: time is '83 6 15', expected a year from 100 to 9999 instead of 83"));
+}
+
+/// Times of the events in lines of these columns, in seconds after 2022-10-13T00:00.
+std::vector<double> seconds_of(const std::string &columns, const std::string &lines) {
+  std::string text = columns + ",lat,lon,mag\n";
+  for (const char c : lines) text += c == '\n' ? ",1,1,4\n" : std::string(1, c);
+  std::vector<double> seconds;
+  for (const Earthquake &event : read(text).events)
+    seconds.push_back(std::round((event.time - 19278.0) * 86400e3) / 1e3);
+  return seconds;
+}
+
+TEST(Earthquakes, ColumnsOfTheTime) {
+  const struct {
+    std::string columns, line;
+  } cases[] = {{"year,mon,day,hour,minu,sec", "2022,10,13,6,29,41.1"},
+               {"year,month,day,hours,minutes,seconds", "2022,10,13,6,29,41.1"},
+               {"Year,Mo,Dy,Hr,Mn,Sec", "2022,10,13,6,29,41.1"},
+               {"YYYY,MM,DD,HH,MM,SS", "2022,10,13,6,29,41.1"},
+               {"dd,mm,yyyy,hh,mm,ss.s", "13,10,2022,6,29,41.1"},
+               {"year,m,d,h,m,s", "2022,Oct,13,6,29,41.1"},
+               {"date,hour,minute,second", "2022-10-13,6,29,41.1"},
+               {"second,minute,hour,date", "41.1,29,6,2022/10/13"},
+               {"Origin Date,Origin_Hour,originMinute,sec (UTC)", "20221013,6,29,41.1"},
+               {"year,month,day,HRMN,sec", "2022,10,13,0629,41.1"},
+               {"DATE,HHMM,SEC", "20221013,629,41.1"},
+               {"yyyy-mm-dd,hh:mm:ss.ss", "2022-10-13,06:29:41.10"},
+               {"date,UTC", "2022-10-13,06:29:41.1"},
+               {"Date (dd/mm/yyyy),Time (UTC)", "13/10/2022,06:29:41.1"},
+               {"date,time", "2022-10-13T06:29:41.1Z,2022-10-13T06:29:41.1Z"},
+               {"time,hour,minute,second", "2022-10-13 06:29,6,29,41.1"},
+               {"fecha,hora,fecha UTC,hora UTC", "2022-10-12,23:29:41.1,2022-10-13,06:29:41.1"},
+               {"date,time,timezone", "2022-10-13,15:29:41.1,+09:00"},
+               {"year,doy,hour,minute,second,msec", "2022,286,6,29,41,100"},
+               {"year,month,day,time", "2022,10,13,062941.1"},
+               {"year,month,day,ot,Mo", "2022,10,13,0629 41.1,5.6e26"},
+               {"year,month,day,hour,minute,second,time", "2022,10,13,6,29,41.1,2022.7815"}};
+  for (const auto &one : cases) {
+    const std::vector<double> seconds = seconds_of(one.columns, one.line + "\n");
+    ASSERT_EQ(seconds.size(), 1u) << one.columns;
+    EXPECT_NEAR(seconds[0], 6 * 3600 + 29 * 60 + 41.1, 1e-4) << one.columns;
+  }
+}
+
+TEST(Earthquakes, NoPartOfATimeIsDroppedInSilence) {
+  const struct {
+    std::string columns, line, says;
+  } cases[] = {
+      {"year,month,day,hour,second", "2022,10,13,6,41.1", "the minute as well as the second"},
+      {"year,month,day,minute", "2022,10,13,29", "the hour as well as the minute"},
+      {"date,hour,minute", "2022-10-13,,29", "the hour as well as the minute"},
+      {"year,month,day,hour", "2022,10,13,6", "a column of minutes next to that of hours"},
+      {"year,month,day,hour", "2022,,13,6", "the month as well as the hour"},
+      {"date,Saat", "2022-10-13,06:29:41.1", "a name such as time for the column of '06:29:41.1'"},
+      {"date,local time", "2022-10-13,14:29:41.1", "a name such as time for the column of"},
+      {"date,time,ampm", "2022-10-13,06:29:41,PM", "no column ampm"},
+      {"date,time,hour", "2022-10-13,06:29:41,14", "the same time in the column 'hour'"},
+      {"date,time", "2022-10-13,2022-10-14T06:29", "the same time in the column 'date'"},
+      {"year,month,day,time", "2022,10,13,2022.19034", "a decimal year on the day"},
+      {"time", "2011.19034", "hhmm, hhmmss or hh:mm:ss"},
+      {"date,time", "221013,06:29", "a date with a year of four digits"},
+      {"date,time", "13/10/22,06:29", "a year of four digits"}};
+  for (const auto &one : cases)
+    EXPECT_TRUE(contains(message_of<FileError>([&] { seconds_of(one.columns, one.line + "\n"); }),
+                         one.says))
+        << message_of<FileError>([&] { seconds_of(one.columns, one.line + "\n"); });
+}
+
+// What a text by itself leaves open follows from all of its column.
+TEST(Earthquakes, TheWholeFileSaysWhatTextsMean) {
+  const double day = 86400.0;
+  const std::string time = "year,month,day,time";
+  EXPECT_EQ(seconds_of(time, "2022,10,13,0546\n2022,10,13,1446\n"),
+            (std::vector<double>{5 * 3600 + 46 * 60, 14 * 3600 + 46 * 60}));
+  EXPECT_EQ(seconds_of(time, "2022,10,13,1446\n2022,10,13,54624\n"),
+            (std::vector<double>{14 * 60 + 46, 5 * 3600 + 46 * 60 + 24}));
+  EXPECT_EQ(seconds_of(time, "2022,10,13,2022.78\n2022,10,14,2022.79\n"),
+            (std::vector<double>{0, day}));
+  EXPECT_EQ(seconds_of("date,time", "11/10/2022,0:00\n13/10/2022,0:00\n"),
+            (std::vector<double>{-2 * day, 0}));
+  EXPECT_EQ(seconds_of("date", "10/11/2022\n10/13/2022\n"), (std::vector<double>{-2 * day, 0}));
+  EXPECT_EQ(seconds_of("mm/dd/yyyy", "10/11/2022\n"), (std::vector<double>{-2 * day}));
+  EXPECT_EQ(seconds_of("date", "11.11.2022\n").size(), 1u);
+  const auto refused = [](const std::string &columns, const std::string &lines, const char *says) {
+    EXPECT_TRUE(contains(message_of<FileError>([&] { seconds_of(columns, lines); }), says))
+        << lines;
+  };
+  refused(time, "2022,10,13,0546\n2022,10,13,144600\n", "either hhmm or hhmmss in the whole file");
+  refused("date", "06/02/2023\n07/02/2023\n", "a day above 12 somewhere in the file");
+  refused("date", "02-13-2023\n13-02-2023\n", "the day first in some dates");
+  refused("dd/mm/yyyy", "02/13/2023\n", "the day first in some dates");
+}
+
+TEST(Earthquakes, LinesThatAreNoneOfAFormat) {
+  // A longitude is no magnitude, and a name no type.
+  EXPECT_EQ(detect_format("2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw\n"), "models");
+  for (const char *line : {"2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw 100 50\n",
+                           "2009/04/06 01:32:39.00 ITALY 2.334 11.334 8.8 6.3 Mw 100 50\n"})
+    EXPECT_TRUE(
+        contains(message_of<FileError>([&] { read_earthquakes(line, "scedc", "file", false); }),
+                 "file:1: "));
+  // The same with its names.
+  const EarthquakeList list = read(
+      "Date       Time             Lat       Lon  Depth   Mag Magt\n"
+      "2009/04/06 01:32:39.00  42.3340   11.3340   8.80   6.30   Mw\n");
+  ASSERT_EQ(list.events.size(), 1u);
+  EXPECT_EQ(list.events[0].magnitude, 6.3);
+  EXPECT_EQ(list.events[0].latitude, 42.334);
+}
+
+TEST(Earthquakes, OddTables) {
+  const std::string names = "time,latitude,longitude,depth,mag,place\n", a = "2020-01-01,1,2,3,4,",
+                    b = "2020-01-02,1,2,3,4,";
+  for (const std::string &text :
+       {names + a + "x\n" + names + b + "y\n",
+        names + a + "x\nplace,mag,time,latitude,longitude,depth\ny,4,2020-01-02,1,2,3\n",
+        names + a + "\"GLEN COE\nHIGHLAND, \"\"X\"\"\"\n" + b + "y\n",
+        names + a + "GLEN COE, HIGHLAND\n" + b + "y\n", names + a + "x,\n" + b + "y,,\n",
+        names + a + "\"not closed\n" + b + "y\n", "sep=,\n" + names + a + "x\n" + b + "y\n",
+        "time,latitude,longitude,depth,mag,place,\n" + a + "x,\n" + b + "y,\n"}) {
+    const EarthquakeList list = read(text);
+    ASSERT_EQ(list.events.size(), 2u) << text;
+    EXPECT_EQ(list.events[1].time, 18263.0) << text;
+    EXPECT_EQ(list.events[1].magnitude, 4.0) << text;
+  }
+  const auto refused = [](const std::string &text, const char *says) {
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(text); }), says)) << text;
+  };
+  refused("time;latitude;longitude;mag\n2020-01-01;56,1;-4,2;1,2\n",
+          "latitude is '56,1', expected a number with a decimal point");
+  refused("time,latitude,longitude,place,rms,mag,id\n2020-01-01,1,2,A, B,0.5,4,9\n",
+          "8 fields, expected 7 (a field with a ',' needs quotes)");
+  refused("time,latitude,longitude,place,mag\n2020-01-01,1,2,\"A,4\n2020-01-02,1,2,A,4\n",
+          "file:2: 4 fields, expected 5 (a quote is not closed)");
+  EXPECT_EQ(read("time,latitude,longitude,mag\n2020-01-01,40.18S,142.5 W,4\n").events[0].latitude,
+            -40.18);
 }
 
 // The type 'n' stands for no magnitude, and the yearly files of 2003 have no type of the place.

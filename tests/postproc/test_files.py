@@ -432,6 +432,19 @@ def test_what_is_read_is_listed(postproc, work):
     assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == 1
 
 
+def test_files_that_are_no_table_are_named(postproc, work):
+    """Empty, packed, of two bytes a letter, or a pipe that was read before."""
+    names = "time,latitude,longitude,mag\n"
+    Path("events.csv").write_text("")
+    refused(postproc, "count events.csv", "events.csv:1: empty file, expected '# lsm-catalogue 1' of a model, or earthquakes")
+    Path("events.csv").write_bytes(b"PK\3\4 and more")
+    refused(postproc, "count events.csv", "events.csv: compressed by zip")
+    for code in ("utf-16", "utf-16-le", "utf-16-be"):
+        Path("events.csv").write_bytes((names + "2020-01-01,1,2,3\n").encode(code))
+        refused(postproc, "count events.csv", "events.csv: text in UTF-16")
+    refused(postproc, "count -", "-: no such file, expected /dev/stdin for standard input")
+
+
 def test_sizes_may_be_magnitudes(postproc, work):
     Path("events.csv").write_text(QUAKES)
     texts = []

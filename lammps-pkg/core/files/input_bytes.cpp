@@ -61,6 +61,7 @@ std::string_view compressed_by(std::string_view head) {
        "7zXZ\0"sv,
        "xz"},
       {"BZh"sv, "bzip2"},
+      {"PK\3\4"sv, "zip"},
       {"\x28\xb5\x2f\xfd"sv, "zstd"}};
   for (const auto &[mark, program] : known)
     if (head.substr(0, mark.size()) == mark) return program;
@@ -79,7 +80,10 @@ std::unique_ptr<Bytes> open_plain(const std::string &path) {
 }
 
 bool is_utf16(std::string_view head) {
-  return head.substr(0, 2) == "\xff\xfe" || head.substr(0, 2) == "\xfe\xff";
+  if (head.substr(0, 2) == "\xff\xfe" || head.substr(0, 2) == "\xfe\xff") return true;
+  // Without a mark: each letter has a byte of 0 before or after it.
+  const auto zero = [head](std::size_t i) { return i < head.size() && head[i] == '\0'; };
+  return head.size() >= 4 && zero(0) == zero(2) && zero(1) == zero(3) && zero(0) != zero(1);
 }
 
 }  // namespace LSM::files

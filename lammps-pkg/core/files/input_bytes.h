@@ -67,7 +67,7 @@ std::string_view compressed_by(Bytes &file);
 /// \throws FileError
 std::unique_ptr<Bytes> open_plain(const std::string &path);
 
-/// Whether a text begins with a byte order mark of UTF-16.
+/// Whether a text begins as one of UTF-16, with or without a byte order mark.
 bool is_utf16(std::string_view head);
 constexpr const char *utf16_text = ": text in UTF-16, expected UTF-8 or ASCII";
 }  // namespace LSM::files
