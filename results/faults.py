@@ -5,6 +5,8 @@
 faults.py POSTPROC                  writes values.csv, the CSV files of the published catalogues, and all figures
 faults.py publish POSTPROC RUN...   of runs (folders FAULT_LENGTH_PACKING): catalogue and ruptures into faults; those of length 120 are picked again,
                                  into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this
+faults.py discs PACKING.dump RUN    which discs ring, and how they are held, from frames RUN.STEP.dump (extra=fault_dump) of a run with contacts of
+                                 stiffness 0.2, and one of its packing before compression (settle=1): rows of trapped.csv
 
 Leaky: soft contacts, and plates that let part of the waves out. Reflecting: plates that reflect, hardly any damping. Absorbing:
 blocks that take up waves. All rates are of 1000 time units; errors are standard errors over packings, of one packing those of ten
@@ -336,6 +338,68 @@ def find_ruptures(*folders):
     ], tests)
 
 
+TRAPPED, RINGING, KT = FOLDER / "trapped.csv", 1.0, 0.2  # RINGING: discs that move with shorter periods are single ones
+MOST_DISCS = 3
+
+
+def frame_of(path):
+    """id, type, x, y, z, radius, vx, vy of each disc."""
+    return np.array(Path(path).read_text().split("vx vy", 1)[1].split(), float).reshape(-1, 8)
+
+
+def stiffness_of(count, pairs, along, across, stiffness):
+    """Sums over pairs of springs along their line, and across it by a factor: what holds each of so many discs if all others are fixed."""
+    out = np.zeros((count, 2, 2))
+    for n, tangent in (along, 1.0), (across, stiffness):
+        if tangent:
+            each = tangent * n[:, :, None] * n[:, None, :]
+            np.add.at(out, pairs[:, 0], each)
+            np.add.at(out, pairs[:, 1], each)
+    return out
+
+
+def discs(packing, run):
+    frames = sorted(Path(run).parent.glob(f"{Path(run).name}.*.dump"))
+    header = lsm.read_catalogue(f"{run}.catalogue.csv").header
+    dt, length = float(header["dt"]), float(header["length"])
+    steps = [int(path.name.split(".")[-2]) for path in frames]
+    columns = [frame_of(path) for path in frames]
+    first, velocity = columns[0], np.array([frame[:, 6:8] for frame in columns])
+    radius, kind, mass = first[:, 5], first[:, 1].astype(int) % 2, first[:, 5]**2
+    power = (np.abs(np.fft.rfft((velocity - velocity.mean(axis=0)) * np.hanning(len(frames))[:, None, None], axis=0))**2).sum(axis=2) * mass
+    frequency = np.fft.rfftfreq(len(frames), (steps[1] - steps[0]) * dt)
+    short = frequency > 1 / RINGING
+    line = int(np.argmax(power.sum(axis=1) * short))
+
+    near = cKDTree(np.column_stack([first[:, 2] % length, first[:, 3]]), boxsize=[length, 0]).query_pairs(2.1, output_type="ndarray")
+
+    def gaps(frame):
+        apart = frame[near[:, 1], 2:4] - frame[near[:, 0], 2:4]
+        apart[:, 0] -= length * np.round(apart[:, 0] / length)
+        distance = np.hypot(*apart.T)
+        return distance - radius[near].sum(axis=1), apart / distance[:, None]
+
+    linked = (np.abs(gaps(frame_of(packing))[0]) < 2e-5) & (kind[near[:, 0]] == kind[near[:, 1]])
+    gap, along = gaps(first)
+    pressed = ~linked & (gap < 0)
+    across = along[:, ::-1] * [-1, 1]
+    held = stiffness_of(len(radius), near[linked], along[linked], across[linked], 0.0)
+    held += stiffness_of(len(radius), near[pressed], along[pressed], across[pressed], KT)
+    softest = np.linalg.eigvalsh(held)[:, 0]
+    rows = [row for row in (read(TRAPPED) if TRAPPED.exists() else []) if row["run"] != Path(run).name]
+    for disc in np.argsort(-power[line])[:MOST_DISCS]:
+        rows.append(
+            dict(run=Path(run).name, seed=header["seed"], begin=steps[0] * dt, end=steps[-1] * dt, period=1 / frequency[line],
+                 line_of_short=power[line - 2:line + 3].sum() / power[short].sum(), disc=int(first[disc, 0]), radius=radius[disc],
+                 share_of_line=power[line, disc] / power[line].sum(), links=int(np.sum(near[linked] == disc)),
+                 pressed=int(np.sum(near[pressed] == disc)), softest=softest[disc], softer_discs=np.mean(softest < softest[disc]),
+                 own_period=2 * math.pi * math.sqrt(mass[disc] / softest[disc])))
+    write_table(TRAPPED, [
+        "Discs that have most of the kinetic energy of the strongest line of periods below 1; softest: smallest stiffness against displacement",
+        "while all others are fixed, softer_discs: share of discs for which it is smaller (faults.py discs)"
+    ], rows)
+
+
 # ---- series that have the spectrum of a run and nothing else of it
 
 SPECTRUM, SURROGATES = FOLDER / "spectrum.csv", 3
@@ -633,6 +697,12 @@ def burst_values():
                 yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), math.nan, "", 1, "bursts.csv")
 
 
+def trapped_values():
+    for number, row in enumerate(read(TRAPPED), 1):
+        for key in ("period", "line_of_short", "radius", "share_of_line", "links", "pressed", "softest", "softer_discs", "own_period"):
+            yield Value(f"trapped.{number}.{key}", float(row[key]), math.nan, "", 1, "trapped.csv")
+
+
 def times_at_places(run, least):
     """Times between ruptures of at least a work at each place of a fault."""
     of = run.events[run.events["size"] >= least]
@@ -769,14 +839,16 @@ def cut_values(postproc):
 
 def all_values(postproc):
     return [
-        *rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *rupture_values(), *budget_values(),
-        *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
+        *rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(), *rupture_values(),
+        *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
     ]
 
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["publish"] and len(sys.argv) > 3:
         sys.exit(publish_runs(*sys.argv[2:]))
+    if sys.argv[1:2] == ["discs"] and len(sys.argv) == 4:
+        sys.exit(discs(*sys.argv[2:]))
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     rates_figure()

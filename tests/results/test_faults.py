@@ -65,3 +65,24 @@ def test_a_rate_has_the_error_of_its_parts():
     half = run_of([50.0, 51.0, 250.0, 251.0, 450.0, 451.0, 650.0, 651.0, 850.0, 851.0], 0, 1)
     assert faults.rate_of(half, np.ones(10, bool)) == pytest.approx((10.0, 10 * np.std([2, 0] * 5, ddof=1) / np.sqrt(10)))
     assert faults.per_length(half, np.ones(10, bool))[0] == pytest.approx(120.0)
+
+
+def test_a_disc_is_as_stiff_as_its_springs():
+    """Two springs along x, one along y, and a contact along y whose tangential spring acts along x."""
+    pairs, along = np.array([[0, 1], [0, 2], [0, 3]]), np.array([[1.0, 0], [-1, 0], [0, 1]])
+    across = along[:, ::-1] * [-1, 1]
+    links = faults.stiffness_of(4, pairs, along, across, 0.0)
+    assert links[0] == pytest.approx(np.diag([2.0, 1.0])) and links[3] == pytest.approx(np.diag([0.0, 1.0]))
+    contact = faults.stiffness_of(4, pairs[2:], along[2:], across[2:], 0.2)
+    assert contact[0] == pytest.approx(np.diag([0.2, 1.0]))
+
+
+def test_drops_after_large_ones_are_told_from_chance():
+    """Each large drop is followed at once by a small one; shuffled sizes and random times are not."""
+    rng = np.random.default_rng(2)
+    large = np.sort(rng.uniform(0, 1e5, 100))
+    starts = np.sort(np.concatenate([large, large + 5]))
+    run = run_of(starts, 0, 1, span=1e5)
+    run.events["size"], run.events["t_end"] = np.where(np.isin(starts, large), 0.1, 1e-3), run.events["t_start"] + 1
+    outside, shuffled = faults.after_crossings(run)
+    assert outside > 10 and 1.3 < shuffled < 2.5
