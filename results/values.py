@@ -8,12 +8,15 @@ comment is replaced. After the key, after a blank, may stand how it is written:
   %            a share as a percentage, without the sign; %() with its error
   .2f          a format of Python
   1/           the inverse, such as the mean time of a rate
+  95           before one of these: the error is half of the 95 % interval of so many packings (Student)
 """
 import csv
 import math
 import re
 from pathlib import Path
 from typing import NamedTuple
+
+from scipy.stats import t as student
 
 TABLE = Path(__file__).resolve().parent / "values.csv"
 MARK = re.compile(r"(\?|-?\d[\d.]*(?:e[-+]?\d+)?(?:\(\d[\d.]*\))?)<!--n\s+([^\s>]+)(?:\s+([^\s>]+?))?\s*-->")
@@ -37,8 +40,12 @@ def digits(value, error):
     return 2 - math.floor(math.log10(abs(value))) if value else 0
 
 
-def text_of(value, error=math.nan, form=""):
+def text_of(value, error=math.nan, form="", n=1):
     """\\raises ValueError if there is no number, or no such form"""
+    if form.startswith("95"):
+        if n < 2:
+            raise ValueError(f"{n} packing, expected at least 2 for an interval")
+        error, form = error * student.ppf(0.975, n - 1), form[2:]
     if not math.isfinite(value):
         raise ValueError("no number")
     if form.startswith("1/"):
@@ -86,7 +93,7 @@ def filled(text, values):
             near = [name for name in values if name.split(".")[0] == key.split(".")[0]]
             raise ValueError(f"number {key}: no such key in values.csv" + (f", expected one of {', '.join(near[:9])}" if near else ""))
         try:
-            shown = text_of(values[key].value, values[key].error, form or "")
+            shown = text_of(values[key].value, values[key].error, form or "", values[key].n)
         except ValueError as error:
             raise ValueError(f"number {key} {form or ''}: {error}") from None
         return f"{shown}{match[0][len(match[1]):]}"

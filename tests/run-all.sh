@@ -10,7 +10,7 @@ build=${LSM_BUILD_DIR:-$root/build}
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages \
   libbenchmark-dev help2man python3-sphinx clang-format yapf3 shfmt shellcheck file strace chromium chromium-driver python3-selenium \
-  snakemake slurm-wlm munge python3-sklearn
+  snakemake slurm-wlm munge python3-sklearn python3-scipy
 
 need_programs cmake ninja c++ mpirun gnuplot python3
 # All ways of using the package need a LAMMPS of our own.

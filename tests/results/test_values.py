@@ -30,6 +30,12 @@ def test_a_number_has_the_digits_that_its_error_allows(value, error, form, text)
     assert values.text_of(value, error, form) == text
 
 
+def test_an_interval_is_that_of_student():
+    assert values.text_of(1.1834, 0.0174, "95()", 3) == "1.18(7)"  # 4.303 x 0.0174
+    with pytest.raises(ValueError, match="1 packing"):
+        values.text_of(1.1834, 0.0174, "95()")
+
+
 def test_what_stands_before_a_comment_is_replaced_and_nothing_else():
     page = "At 120 (?<!--n a.b ()-->), as 7 of 9, 3.4e-5(2)<!--n share %--> % and\n9<!--n rate 1/-->: 15."
     once = values.filled(page, TABLE)
