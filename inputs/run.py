@@ -135,14 +135,11 @@ class Rupture:
 
     @classmethod
     def known(cls, _):
-        """Variables of style index of the scene, of one that it includes by name, and of parts of scenes, which say so at the top."""
-        texts, found = [(INPUTS / f"{cls.scene}.in").read_text()], set(cls.OWN)
-        for text in texts:
-            found |= set(re.findall(r"^variable\s+(\w+)\s+index\b", text, re.M))
-            for word in re.findall(r"^include_beside\s+(\S+)", text, re.M):
-                others = [path.read_text() for path in INPUTS.glob(re.sub(r"\$\{\w+\}", "*", word))]
-                texts += [one for one in others if len(others) == 1 or one.startswith("# Part of ")]
-        return found
+        """Variables of the table that the scene reads, or one that it includes."""
+        text = (INPUTS / f"{cls.scene}.in").read_text()
+        while not (table := re.search(r"^lsm_variables\s+(\S+)", text, re.M)):
+            text = (INPUTS / re.search(r"^include_beside\s+(\S+)", text, re.M)[1]).read_text()
+        return {one.name for one in declared(INPUTS / table[1])} | cls.OWN
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder = folder

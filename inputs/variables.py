@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The variables of fault.in, as fault.variables declares them."""
+"""The variables of scenes, as their tables declare them, such as fault.variables that of fault.in."""
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -20,9 +20,9 @@ class Variable(NamedTuple):
     meaning: str
 
 
-def declared():
+def declared(table=TABLE):
     """All variables, in order."""
-    return [Variable(*(cell.strip() for cell in line.split("|"))) for line in TABLE.read_text().splitlines() if line.count("|") == 6]
+    return [Variable(*(cell.strip() for cell in line.split("|"))) for line in table.read_text().splitlines() if line.count("|") == 6]
 
 
 def cases():

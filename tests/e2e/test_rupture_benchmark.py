@@ -69,6 +69,7 @@ def test_tpv3(ruptured):
 
 def tpv5(program, prefix, **variables):
     """The scene TPV5, which writes a catalogue of drops and a PE series as well."""
+    shutil.copy(INPUTS / "rupture_tpv5.variables", ".")
     edit(INPUTS / "rupture_tpv5.in", "tpv5.in", ("lsm/events sides", "lsm/events catalogue ${prefix}.catalogue.csv series ${prefix}.pe.bin sides"))
     run(program, ["-in", "tpv5.in", *scene(**TPV5, prefix=prefix, **variables)[2:]])
 
@@ -88,7 +89,24 @@ def test_tpv5_goes_on_byte_for_byte(on_ranks, ranks):
 
 def test_tpv5_names_a_surface_that_there_is_not(lmp):
     refused(lmp, ["-in", INPUTS / "rupture_tpv5.in", *scene(**TPV5, prefix="none", surface="miror")[2:]],
-            "rupture_tpv5.in: surface is miror, expected free or mirror")
+            "Variable surface is 'miror', but must be free or mirror")
+
+
+@pytest.mark.parametrize("name, variable, value, said", [("tpv205", "patches", "maybe", "yes or no"), ("tpv205", "dx", 0, "a number above 0"),
+                                                         ("tpv3", "blocks", "grid", "lattice or packing"),
+                                                         ("crack", "speed", 1.5, "a number of at least 0 and less than 1"),
+                                                         ("tpv5", "pictures", 0.5, "a whole number of at least 0")])
+def test_variables_of_ruptures_are_checked(lmp, name, variable, value, said):
+    refused(lmp, scene(f"rupture_{name}.in", **{variable: value}), f"Variable {variable} is '{value}', but must be {said}")
+    refused(lmp, scene(f"rupture_{name}.in", dx="100 200"), "Variable dx is '100 200', but must be a number above 0")
+
+
+def test_a_rupture_keeps_its_variables(lmp):
+    """What is misspelt or has no effect is told; a run that continues cannot have another plane."""
+    refused(lmp, scene("rupture_tpv3.in", seed=2), "Variable seed is '2', but has no effect, as blocks is lattice; leave it out")
+    tpv5(lmp, "part", tend=1)
+    refused(lmp, ["-in", "tpv5.in", *scene(restart="part.restart.20", dx=900, checkpoint=20)[2:]],
+            "Variable dx is 900, but restart file part.restart.20 was written with dx = 1000, which it cannot change")
 
 
 def test_tpv5_on_ranks(on_ranks):

@@ -71,7 +71,7 @@ def test_into_lammps(work):
     assert (work / "lammps/src/LSM/lsm_version.h").read_text() == f'#define LSM_VERSION "{VERSION}"\n'
     for page in (SOURCE / "lammps-pkg/doc").glob("*.rst"):
         assert (work / "lammps/doc/src" / page.name).exists() == (page.name != "index.rst")
-    scenes = [*(SOURCE / "inputs").glob("*.in"), SOURCE / "inputs/fault.variables"]
+    scenes = [path for ending in ("in", "variables") for path in (SOURCE / "inputs").glob(f"*.{ending}")]
     assert {path.name for path in scenes} == {path.name for path in (work / "lammps/examples/PACKAGES/lsm").iterdir()}
     list_file = ("set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\nif(PKG_LSM)\n  find_package(ZLIB REQUIRED)\n"
                  "  target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM\nendif()\n")
