@@ -45,7 +45,7 @@ Region parse_region(std::string_view text);
 
 /// What read_earthquakes() reads, for messages.
 constexpr std::string_view earthquake_formats =
-    "columns separated by , ; | or tabs, with names such as time (or date, or year to second), "
+    "columns separated by , ; | tabs or blanks, with names such as time (or date, or year to second), "
     "latitude, longitude and mag (ComCat, NEIC, NCEDC, GeoNet, FDSN, ISC, pyCSEP); QuakeML; "
     "GeoJSON of ComCat; SCEDC; ZMAP";
 
