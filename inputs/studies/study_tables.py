@@ -44,7 +44,7 @@ class TableError(Exception):
 
 
 class Misspelt(AttributeError):
-    """A field that the numbers of a command do not have."""
+    """A field that the numbers of a command do not have, and why."""
 
 
 class Found(dict):
@@ -53,6 +53,8 @@ class Found(dict):
     def __getattr__(self, name):
         if name in self or name.startswith("__"):
             return self[name]
+        if self.get("why"):  # what a command could not determine has its reason in place of numbers
+            raise Misspelt(self["why"])
         raise Misspelt(f"nothing is called '{name}'{meant(name, self)}, expected one of {', '.join(self)}")
 
 

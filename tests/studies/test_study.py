@@ -22,7 +22,7 @@ from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # n
 sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 from lsm import LOADING  # noqa: E402
 from progress import RunProgress  # noqa: E402
-from study_tables import Study, TableError, with_defaults  # noqa: E402
+from study_tables import Found, Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,preset=absorbing width=20 settle=100 velocity=0.02 stress=0.003\n"
@@ -557,6 +557,13 @@ def test_means_have_errors_and_names_of_their_own(study, plan):
     assert float(row["n"]) == (a + b) / 2 and float(row["n_error"]) == pytest.approx(abs(a - b) / 2, rel=1e-5) and row["m"] == row["m_error"] == "0"
     with pytest.raises(TableError, match="my.yaml: means and differences: 'n_error' twice in differences.csv, expected it once"):
         plan("run,program\nc,slider\n", RECIPE + parts.replace("m:", "n_error:"))
+
+
+def test_a_number_that_is_missing_says_why():
+    with pytest.raises(AttributeError, match="^nothing is called 'evnts' .did you mean events.., expected one of events, label$"):
+        Found(events=3, label="a").evnts
+    with pytest.raises(AttributeError, match="^5 events, at least 10 needed$"):
+        Found(label="a", why="5 events, at least 10 needed").exponent
 
 
 def test_values_may_be_numbers(plan):
