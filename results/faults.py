@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The three faults beside each other: what the article says of them, from the published catalogues and the CSV files beside this file. †
 
-faults.py POSTPROC                  writes values.csv, the CSV files of the published catalogues, and all figures
+faults.py POSTPROC                  writes the CSV files of the published catalogues, and all figures
 faults.py publish POSTPROC RUN...   of runs (folders FAULT_LENGTH_PACKING): catalogue and ruptures into faults; those of length 120 are picked again,
                                  into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this
 faults.py discs PACKING.dump RUN    which discs ring, and how they are held, from frames RUN.STEP.dump (extra=fault_dump) of a run with contacts of
@@ -29,7 +29,6 @@ from scipy.stats import gamma as gamma_law
 FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / part) for part in ("python", "inputs/studies")]
 import lsm  # noqa: E402
-import values  # noqa: E402
 import slip_or_exchange  # noqa: E402
 from lsm import LOADING, slip, summary  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
@@ -627,18 +626,21 @@ def rate_values():
 
 
 def fit_values(postproc):
-    """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, and over those that nobody fitted."""
-    found = {}
+    """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, over those that nobody fitted, and of each of these."""
+    found, numbers = {}, (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
+                          ("B", "B_0.0001", None), ("mean_time", "mean_time_0.0001", None))
     for fault in FAULTS:
         every = [run for length in LENGTHS for run in runs_of(fault, length)]
         rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
         for run, row in zip(every, rows):
             for kind in ("all", *(["held_out"] if run.packing > 10 else [])):
                 found.setdefault((kind, fault, run.length), []).append((run, row))
+            for key, column, error in numbers if run.packing > 10 else ():
+                yield Value(f"run.{key}.{fault}.{run.length}.{run.packing}", float(row[column]),
+                            float(row[error]) if error else math.nan, "time" if key in ("B", "mean_time") else "", 1, sources([run]))
     for (kind, fault, length), some in found.items():
         source, name = sources(run for run, _ in some), f"{kind}.{fault}.{length}"
-        for key, column, error in (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
-                                   ("B", "B_0.0001", None), ("mean_time", "mean_time_0.0001", None)):
+        for key, column, error in numbers:
             cells = [row for _, row in some if row[column]]
             if cells:
                 yield Value(f"{key}.{name}", *mean_of(cells, column, error)[:2], "time" if key in ("B", "mean_time") else "", len(cells), source)
@@ -854,4 +856,3 @@ if __name__ == "__main__":
     rates_figure()
     estimators_figure()
     ruptures_figure()
-    values.write(all_values(sys.argv[1]))

@@ -4,6 +4,7 @@
 
 tables.py POSTPROC            says which tables are not what the data give; exit status 1 if there is one
 tables.py POSTPROC --write    writes them into the pages
+tables.py POSTPROC --values   writes the numbers of sentences into values.csv, from which the pages take them
 tables.py POSTPROC --csv      says which numbers of the CSV files that the published catalogues give are others, likewise
 
 A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md, and numbers
@@ -29,6 +30,7 @@ sys.path[:0] = [str(FOLDER.parent / "python"), str(FOLDER.parent / "inputs"), st
 import faults as article  # noqa: E402
 import lsm  # noqa: E402
 import nature  # noqa: E402
+import page_values  # noqa: E402
 import periods  # noqa: E402
 import slip_or_exchange  # noqa: E402
 import speed_tables  # noqa: E402
@@ -194,24 +196,14 @@ def paper_table():
 
 
 def agreement_table():
-    """The README's: the printed numbers in three faults, means of the packings."""
-    slip, out = slip_shares(), [["paper", "", "", "1.07", "0.995", "15.2"]]
-    heads = {"preset slip": "leaky (default)", "preset paper": "reflecting (`preset reflecting`)", "default": "absorbing (`preset absorbing`)"}
-    fitted = {("preset slip", "120"): "fitted", ("preset slip", "480"): "half of them fitted", ("default", "120"): "fitted"}
-    for preset, head in heads.items():
-        lengths = ("120", "945") if preset == "default" else ("120", "480", "1890")
-        rows = grouped(of_all_times(PRESETS[preset]), lambda row: row["length"])
-        for length in lengths:
-            numbers = [
-                shown(statistics.mean(number(row, key) for row in rows[length])) for key in (EXPONENTS["1e-4 to 1e-1"], "gamma_0.0001", "B_0.0001")
-            ]
-            share = 100 * statistics.mean(slip[preset, length].values())
-            out.append([f"{head}, {length}", f"{len(rows[length])}, {fitted.get((preset, length), 'predicted')}", f"{share:.0f}", *numbers])
-    return table(["fault, length", "packings", "events of 0.001 to 0.1 that are slip, % †", "exponent over three decades", "gamma", "its scale B"],
-                 out)
+    """The first numbers of the README."""
+    columns = {"drops >= 1e-4 in 1000 time units": ("rate.drops.{}.0.0001", "()"), "slips >= 0.1 (ours)": ("rate.slips.{}.0.1", "()")}
+    columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
+    rows = [f"{fault}.{length}" for fault in article.FAULTS for length in (120, 480, 1890)]
+    head, line, *rest = keyed_table("fault, length", rows, columns).split("\n")
+    return "\n".join([head, line, f"| paper, all lengths | {article.PAPER:.0f} |  | 1.07 | 0.995 | 15.2 |", *rest])
 
 
-@functools.cache
 def scaling_of(kind, least, folder=CAMPAIGN):
     """Exponent and characteristic size of each catalogue, {length: [(fit, point)]}, and how the size depends on the length."""
     groups = faults(kind, folder)
@@ -865,10 +857,12 @@ def drops_table():
     return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns)
 
 
-def held_out_table():
-    """Packings 11 to 13, to which nothing was fitted."""
-    columns = {"exponent": ("exponent.held_out.{}", "()"), "gamma": ("gamma.held_out.{}", "()"), "B": ("B.held_out.{}", "()")}
-    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns | {"one drop in": ("mean_time.held_out.{}", "()")})
+def default_fault_table():
+    """The default fault at packings to which nothing was fitted."""
+    rows = sorted((key.removeprefix("run.exponent.leaky.") for key in values.read() if key.startswith("run.exponent.leaky.")),
+                  key=lambda row: [int(number) for number in row.split(".")])
+    columns = {key if key != "mean_time" else "one drop in": (f"run.{key}.leaky.{{}}", "()") for key in ("exponent", "gamma", "B", "mean_time")}
+    return keyed_table("length, packing", rows, columns)
 
 
 def connected_slip_table():
@@ -1009,6 +1003,8 @@ TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in 
 TABLES |= {name: lambda made=made: table(*made()) for name, made in speed_tables.TABLES.items()}
 TABLES |= {name: lambda name=name: table(*walk.table(shown, name)) for name in walk.TABLES} | {"lattice": lambda: turned(*walk.lattice(shown))}
 
+NEW_FORM = ("article", "validation", "beyond", "methods", "speed")
+
 
 def check(write):
     wrong, keyed = 0, values.read()
@@ -1029,6 +1025,10 @@ def check(write):
             new = values.filled(new, keyed)
         except ValueError as error:
             sys.exit(f"{page.name}: {error}")
+        numbers = values.bare(new) if page.stem in NEW_FORM else []
+        if numbers:
+            wrong = 1
+            print(f"{page.name}: {', '.join(numbers)}: numbers without a key, expected <!--n KEY--> after each, or a constant of values.py")
         if write:
             page.write_text(new)
         elif new != text:
@@ -1053,9 +1053,14 @@ def differing(path, rows, there=None, least=1e-6):
     return bool(wrong)
 
 
+def all_values():
+    """Numbers of sentences."""
+    return article.all_values(POSTPROC) + page_values.all_values(POSTPROC)
+
+
 def check_csv():
     """The numbers of sentences, files of faults.py and nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
-    wrong = [differing(values.TABLE, values.rows(article.all_values(POSTPROC)))]
+    wrong = [differing(values.TABLE, values.rows(all_values()))]
     for name, made in ("rates", article.rates), ("estimators", article.estimators), ("ruptures", article.rupture_rows):
         wrong.append(differing(FOLDER / f"{name}.csv", made()))
     rows = nature.published(POSTPROC)
@@ -1081,7 +1086,9 @@ def check_csv():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"], ["--csv"]):
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"], ["--csv"], ["--values"]):
         sys.exit(__doc__)
     POSTPROC = sys.argv[1]
+    if sys.argv[2:] == ["--values"]:
+        sys.exit(values.write(all_values()))
     sys.exit(check_csv() if sys.argv[2:] == ["--csv"] else check(len(sys.argv) == 3))

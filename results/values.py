@@ -19,6 +19,16 @@ from typing import NamedTuple
 from scipy.stats import t as student
 
 TABLE = Path(__file__).resolve().parent / "values.csv"
+# What a page may say without a key: what the paper prints, and settings and limits that were chosen and not measured.
+PRINTED = "30 120 240 480 945 1440 1890 256 614 972 1450 1928 0.6 0.00025 0.01 1e7 3e7 3000 8000 5000 1.07 0.995 15.2 15.21 2.12 0.5 1.0 0.25 1e-4 2004 553"
+CHOSEN = {
+    "sizes that are counted, and units of rates": "1e-4 0.001 0.002 0.003 1e-3 3e-3 0.01 0.1 1 100 1000",
+    "times: loading, a P-wave through the blocks, memories and steps": "8000 15 0.3 4 0.03 0.12",
+    "thresholds of ruptures, in velocities of the plates": "20 50",
+    "our tolerances": "0.07 1.22",
+    "packings": "4 5 6 11 12 13",
+}
+CONSTANTS = set(f"{PRINTED} {' '.join(CHOSEN.values())}".split())
 MARK = re.compile(r"(\?|-?\d[\d.]*(?:e[-+]?\d+)?(?:\(\d[\d.]*\))?)<!--n\s+([^\s>]+)(?:\s+([^\s>]+?))?\s*-->")
 
 
@@ -99,3 +109,12 @@ def filled(text, values):
         return f"{shown}{match[0][len(match[1]):]}"
 
     return MARK.sub(replace, text)
+
+
+def bare(text):
+    """Numbers of a page's sentences without a key that are no constants."""
+    for other in (r"^```.*?^```", r"<!-- table .*?<!-- end -->", r"^ *(\||#).*?$", r"^    .*?$"):
+        text = re.sub(other, "", text, flags=re.M | re.S if "```" in other or "table" in other else re.M)
+    text = re.sub(r"`[^`]*`", "", MARK.sub("", text))
+    text = re.sub(r"\]\([^)]*\)|<!--.*?-->", "", text, flags=re.S)
+    return [number for number in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?:e-?\d+)?(?![\w-])", text) if number not in CONSTANTS]

@@ -54,3 +54,8 @@ def test_a_table_is_read_as_it_was_written(tmp_path):
     values.write(TABLE.values(), tmp_path / "values.csv")
     again = values.read(tmp_path / "values.csv")
     assert list(again) == sorted(TABLE) and again["a.b"] == TABLE["a.b"] and math.isnan(again["none"].value)
+
+
+def test_a_number_without_a_key_is_found_unless_it_is_a_constant():
+    page = "# 77\n| 78 |\nOf 120 and 1.07, `79`, 0.93<!--n a.b-->, [page](80.md) are 81 and 8.2e-5.\n\n```\n83\n```\n<!-- table t -->\n| 84 |\n<!-- end -->\n"
+    assert values.bare(page) == ["81", "8.2e-5"]
