@@ -51,6 +51,14 @@ void LSMRun::command(int narg, char **arg)
     error->all(FLERR, "lsm_run: steps = {}, but {} of them are done; give as many or more", steps,
                step - after);
 
+  if (timer->is_timeout()) {    // LAMMPS leaves out all runs after one that a time limit ended
+    if (comm->me == 0)
+      utils::logmesg(lmp,
+                     "lsm_run: stopped before its first step by the time limit of a run before "
+                     "it; nothing is written\n");
+    input->one("quit 75");
+  }
+
   // found now and not by the first restart file
   for (const std::string &one : further_variables)
     if (input->variable->find(one.c_str()) < 0)
