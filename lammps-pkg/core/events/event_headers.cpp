@@ -63,7 +63,7 @@ CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene
     events.emplace_back("modulus", number(settings.modulus));
   }
   info.slip_moment = info.x_centroid = info.rupture_length = info.peak_slip = located;
-  info.friction = located && settings.finds_ruptures();
+  info.friction = settings.finds_ruptures();
   info.parameters = parameters_of(settings, scene, events, settings.no_series ? "series" : "");
   return info;
 }
