@@ -629,6 +629,28 @@ void measure(const PackingSettings &s, Packing &result) {
   result.coordination = n > 0 ? 2.0 * static_cast<double>(result.links.size()) / n : 0.0;
 }
 
+/// The discs tangent to the fault line, and the part of the line that they cover on the side where
+/// it is less.
+struct Faces {
+  int discs = 0;
+  double covered = 0.0;
+};
+
+Faces faces_of(const PackingSettings &s, const Packing &packing) {
+  Faces faces;
+  double sides[2] = {0.0, 0.0};
+  for (const Disc &d : packing.discs) {
+    if (fault_gap(s, d) >= s.link_gap) continue;
+    ++faces.discs;
+    sides[d.block] += 2.0 * d.r / s.length;
+  }
+  faces.covered = std::min(sides[0], sides[1]);
+  return faces;
+}
+
+/// With less, the blocks are rubble that touches in a few places. †
+constexpr double LEAST_COVERED = 1.0 / 3.0;
+
 }  // namespace
 
 std::pair<double, double> link_vector(double length, const Disc &a, const Disc &b) {
@@ -644,14 +666,22 @@ Packing make_packing(const PackingSettings &settings) {
   fill_blocks(settings, result);
   sort_discs(settings, result);
   link_discs(settings, result);
+  const Faces before = faces_of(settings, result);
   find_loose(settings, result);
-  if (settings.remove_loose)
+  if (settings.remove_loose) {
     for (const int block : {0, 1})
       if (std::none_of(result.discs.begin(), result.discs.end(),
                        [block](const Disc &d) { return d.block == block && !d.plate; }))
         reject("loose", "remove",
                "discs of this range of radii to hold each other, but none of the ",
                block == 0 ? "lower block is left" : "upper block is left");
+    const Faces after = faces_of(settings, result);
+    if (before.covered >= LEAST_COVERED && after.covered < LEAST_COVERED)
+      reject("loose", "remove", "discs of this range of radii to hold each other, but ",
+             std::to_string(result.discs.size()) + " are left, " + std::to_string(after.discs) +
+                 " of " + std::to_string(before.discs) +
+                 " tangent to the fault line; give a wider range, or loose keep");
+  }
   measure(settings, result);
   return result;
 }
