@@ -27,6 +27,7 @@ enum { BELOW, ABOVE };
 // the fault
 static constexpr double FACING = 1.2;
 static constexpr double ASIDE = 0.2;
+static constexpr double TOUCHING = 1e-9;    // overlap of discs that just touch, in radii: rounding
 
 FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
@@ -198,7 +199,7 @@ void FixLSMTraction::pre_neighbor()
 
 // Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and
 // their tangential springs begin with the elongation that the shear traction needs: no particle
-// moves and no link is strained.
+// moves and no link is strained. Contacts that are there already keep what they have besides.
 void FixLSMTraction::setup_pre_force(int /*vflag*/)
 {
   if (begun) return;
@@ -249,8 +250,10 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
       if (load[DIP]) load[DIP][i] = share[s][i] * dip[i];
       const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
       const double dz = load[DIP] ? atom->x[i][2] - atom->x[j][2] : 0.0;
-      const double more =
-          0.5 * (sqrt(dx * dx + dy * dy + dz * dz) + load[NORMAL][i] / k - radius[i] - radius[j]);
+      const double r = sqrt(dx * dx + dy * dy + dz * dz), overlap = radius[i] + radius[j] - r;
+      const double more = overlap > TOUCHING * radius[i]
+                              ? 0.5 * load[NORMAL][i] / k
+                              : 0.5 * (r + load[NORMAL][i] / k - radius[i] - radius[j]);
       if (fabs(more) > 0.05 * radius[i])
         error->one(
             FLERR,
@@ -270,7 +273,7 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   std::vector<double *> of_each(atom->nlocal + atom->nghost);
   for (size_t i = 0; i < of_each.size(); i++) of_each[i] = &contact_radius[i];
   comm->forward_comm_array(1, of_each.data());
-  pair->load_contacts(load[SHEAR], load[DIP]);
+  pair->load_contacts(side, load[SHEAR], load[DIP]);
   begun = true;
 }
 

@@ -113,8 +113,8 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
   const Step step = {update->setupflag != 0, rounding(domain), update->dt * time_ratio,
                      locate_onset != 0};
   const LSMFriction::Scene scene = {
-      near, *this,        *this, atom->x[0], atom->f[0], atom->nlocal,       newton_pair != 0,
-      step, near_reach(), k,     &table[0],  screened,   velocity != nullptr};
+      near, *this,        *this, atom->x[0], atom->f[0], atom->nlocal,  newton_pair != 0,
+      step, near_reach(), k,     &table[0],  screened,   has_dashpots()};
   if (domain->dimension == 3)
     LSMFriction::Loop<Law, Recorder, 3>(scene).run();
   else
@@ -141,7 +141,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
 }
 
-void PairLSMFriction::load_contacts(const double *shear, const double *shear_z)
+void PairLSMFriction::load_contacts(const int *faces, const double *shear, const double *shear_z)
 {
   near.write_states();
   near.forget();
@@ -156,27 +156,30 @@ void PairLSMFriction::load_contacts(const double *shear, const double *shear_z)
       MathExtra::sub3(x[i], x[j], del);
       const double r0 = radius[i] + radius[j];
       const int itype = atom->type[i], jtype = atom->type[j];
+      const int of_i = atom->mask[i], of_j = atom->mask[j];
+      if (!((of_i & faces[0]) && (of_j & faces[1])) && !((of_i & faces[1]) && (of_j & faces[0])))
+        continue;
       if (dimension == 2) del[2] = 0.0;
       const double rsq = MathExtra::lensq3(del);
       if (!active[itype][jtype] || rsq >= r0 * r0) continue;
       const std::vector<double> values = table.values(itype, jtype);
       double *const h = &fix_history->firstvalue[i][size_history() * jj];
-      fix_history->firstflag[i][jj] = 1;
+      int &touch = fix_history->firstflag[i][jj];
+      double &status = h[dimension == 3 ? Kept<3>::STATUS : Kept<2>::STATUS];
+      if (!touch || status == NEAR) {
+        touch = 1;
+        std::fill_n(h, size_history(), 0.0);
+        std::copy_n(del, dimension, h + (dimension == 3 ? Kept<3>::VECTOR : Kept<2>::VECTOR));
+        status = STICKS;
+        table.law->begin(values.data(), h + law_state());
+      }
       if (dimension == 3) {
         const double up = del[1] > 0.0 ? 1.0 : -1.0;
-        h[0] = up * shear[i] / values[0];
-        h[1] = 0.0;
-        h[2] = up * shear_z[i] / values[0];
-        const double along = MathExtra::dot3(h, del) / rsq;
-        for (int c = 0; c < 3; c++) h[c] -= along * del[c];
-        std::copy_n(del, 3, h + Kept<3>::VECTOR);
-        h[Kept<3>::STATUS] = STICKS;
-      } else {
-        h[Kept<2>::XI] = -shear[i] / values[0];
-        std::copy_n(del, 2, h + Kept<2>::VECTOR);
-        h[Kept<2>::STATUS] = STICKS;
-      }
-      table.law->begin(values.data(), h + law_state());
+        double more[] = {up * shear[i] / values[0], 0.0, up * shear_z[i] / values[0]};
+        const double along = MathExtra::dot3(more, del) / rsq;
+        for (int c = 0; c < 3; c++) h[c] += more[c] - along * del[c];
+      } else
+        h[Kept<2>::XI] -= shear[i] / values[0];
     }
   }
 }
@@ -246,7 +249,6 @@ void PairLSMFriction::init_style()
         FLERR,
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
-  time_ratio = 1.0;
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
 

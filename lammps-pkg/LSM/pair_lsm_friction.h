@@ -35,10 +35,11 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   void transfer_history(double *, double *, int, int) override;
   double time_ratio =
       1.0;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
-  /// Starts the contacts in the list with a shear force of the upper particle on the lower one,
-  /// along x and in three dimensions along z, given for each particle of this rank. To be called
-  /// before forces are evaluated in a setup.
-  void load_contacts(const double *shear, const double *shear_z);
+  /// Adds to the contacts between two faces, given by bits of their groups, a shear force of the
+  /// upper particle on the lower one, along x and in three dimensions along z, given for each
+  /// particle of this rank; starts those that are not there yet. To be called before forces are
+  /// evaluated in a setup.
+  void load_contacts(const int *faces, const double *shear, const double *shear_z);
   /// Writes the contacts of the last evaluation into the history. To be called before the history
   /// is read.
   void note_contacts() { near.write_states(); }
