@@ -18,6 +18,7 @@
 #include "files/text.h"
 #include "friction/force_laws.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_ranks.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 #include "lsm_version.h"
@@ -180,7 +181,7 @@ template <int DIM> void BondLSMLinked::eval()
 
 template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
 {
-  if (velocity && delay[s.type] > 0.0)
+  if (has_dashpot(s.type))
     return add_forces<DIM>(s, LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
                                                               velocity->now(0), &velocity->power});
   return add_forces<DIM>(s, law);
@@ -266,10 +267,21 @@ static bool any_above_0(const std::vector<double> &of_types)
   return std::any_of(of_types.begin(), of_types.end(), [](double value) { return value > 0.0; });
 }
 
+bool BondLSMLinked::is_viscous() const
+{
+  return any_above_0(delay);
+}
+
+// a minimizer has no velocities
+bool BondLSMLinked::has_dashpot(int type) const
+{
+  return velocity && delay[type] > 0.0 && update->whichflag != 2;
+}
+
 std::string BondLSMLinked::retardation() const
 {
   std::string text;
-  if (!any_above_0(delay)) return text;
+  if (!is_viscous()) return text;
   for (int i = 1; i <= atom->nbondtypes; i++)
     text += (i > 1 ? " " : "") + LSM::text::number(delay[i]);
   return text;
@@ -307,6 +319,7 @@ void BondLSMLinked::coeff(int narg, char **arg)
                "TIME]' with the breaking distance ratio = r_cut/r0 > 1, or no ratio for links that "
                "never break");
   if (!allocated) allocate();
+  LSMScene::set_up_next_run(lmp);
 
   int ilo, ihi;
   utils::bounds(FLERR, arg[0], 1, atom->nbondtypes, ilo, ihi, error);
@@ -343,16 +356,27 @@ void BondLSMLinked::init_style()
     if (setflag[i] && !(k[i] > 0.0))
       error->all(FLERR, "Bond lsm/linked: k of type {} is {}, but must be > 0", i, k[i]);
 
-  // a minimizer has no velocities
-  velocity = any_above_0(delay) && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
-
-  double mine = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
-  MPI_Allreduce(&mine, &maxrad, 1, MPI_DOUBLE, MPI_MAX, world);
+  LSMScene::set_up_next_run(lmp);
+  velocity = is_viscous() ? FixLSMVelocity::of(lmp) : nullptr;
+  find_largest_radius();
 
   // only links that can break need the fix that tells the other ranks and updates the topology
   if (any_above_0(ratio) && !modify->get_fix_by_id("LSM_BREAK"))
     modify->add_fix("LSM_BREAK all LSM_BREAK");
+}
+
+// bond_write asks for it before it initializes the style
+double BondLSMLinked::equilibrium_distance(int type)
+{
+  if (LSMScene::is_command(lmp, "bond_write")) find_largest_radius();
+  return 2.0 * maxrad * factor[type];
+}
+
+void BondLSMLinked::find_largest_radius()
+{
+  double mine = 0.0;
+  for (int i = 0; atom->radius && i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
+  maxrad = lsm_largest(mine, world);
 }
 
 void BondLSMLinked::coefficients_in(LSMRestartFile file)
@@ -390,7 +414,7 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
   const double r = sqrt(rsq);
   const double stretch = r - factor[type] * (atom->radius[i] + atom->radius[j]);
   double pull = LSM::Spring::force(k[type], stretch);
-  if (velocity && delay[type] > 0.0 && r > 0.0)
+  if (has_dashpot(type) && r > 0.0)
     pull += LSM::Dashpot::force(k[type] * delay[type],
                                 velocity->rate(i, domain->closest_image(i, j), r));
   fforce = r > 0.0 ? -pull / r : 0.0;

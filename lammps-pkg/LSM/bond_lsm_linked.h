@@ -29,7 +29,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void coeff(int, char **) override;
   void init_style() override;
   // the rest length is a factor times r_i + r_j, but LAMMPS asks for a single number per type
-  double equilibrium_distance(int type) override { return 2.0 * maxrad * factor[type]; }
+  double equilibrium_distance(int type) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void write_data(FILE *) override;
@@ -48,6 +48,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void for_each_current(const std::function<void(const CurrentLink &)> &) const;
   /// Largest strain |r - r0| / r0 of these links.
   double max_strain() const;
+  bool is_viscous() const;    ///< by its coefficients
   /// Retardation times of the types, empty if all are 0.
   std::string retardation() const;
 
@@ -70,8 +71,10 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   std::vector<LSMLinkKernel::Place> broken_now;
   bigint collected_at = -1;    // step of the neighbour list that the links are from, -1 if outdated
 
-  class FixLSMVelocity *velocity = nullptr;    // of this run, null if no link is viscous in it
+  class FixLSMVelocity *velocity = nullptr;    // null if no link is viscous
 
+  bool has_dashpot(int type) const;
+  void find_largest_radius();
   void allocate();
   void coefficients_in(class LSMRestartFile);
   std::vector<int> owned_by_id() const;

@@ -53,7 +53,6 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(
       id_of_fix() + (settings.records_slip() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
   recorder->owner = this;
-  update->first_update = 0;
   [[maybe_unused]] static const int asked = std::atexit([] {
     for (auto *one : living)
       if (one->update->whichflag == 0) one->write_rest();    // not after an error within a run
@@ -68,10 +67,6 @@ ComputeLSMEvents::~ComputeLSMEvents()
   living.erase(this);
   write_rest();
   sources.release();
-
-  // 'run N pre no' needs an init, too, which sets up LAMMPS' lists of fixes and what the styles
-  // record
-  if (update) update->first_update = 0;
   if (recorder && modify && modify->get_fix_by_id(id_of_fix())) modify->delete_fix(id_of_fix());
   delete[] vector;
 }
@@ -227,11 +222,7 @@ void ComputeLSMEvents::setup_record()
 {
   guard.begin_run();
   if (!opened) open_files();
-  if (fault_begun && last_recorded != update->ntimestep)
-    error->all(FLERR,
-               "Compute lsm/events {}: the step was {} and is {} now, but {} follow the steps one "
-               "by one; uncompute it first, and use other files",
-               id, last_recorded, update->ntimestep, settings.asked_by());
+  if (fault_begun && last_recorded != update->ntimestep) refuse_gap();
   check_box();
   change_dt();
   leave_out_jump();
@@ -300,6 +291,21 @@ void ComputeLSMEvents::change_dt()
 double ComputeLSMEvents::time_of(bigint step) const
 {
   return sources.leap() ? sources.leap()->model_time(step) : clock.at(step);
+}
+
+void ComputeLSMEvents::refuse_gap() const
+{
+  error->all(FLERR,
+             "Compute lsm/events {}: the step was {} and is {} now, but {} follow the steps one by "
+             "one; uncompute it first, and use other files",
+             id, last_recorded, update->ntimestep, settings.asked_by());
+}
+
+// a run without a set-up may begin at another step
+void ComputeLSMEvents::end_step()
+{
+  if (fault_begun && update->ntimestep != last_recorded + 1) refuse_gap();
+  record();
 }
 
 void ComputeLSMEvents::record()

@@ -40,7 +40,7 @@ class ComputeLSMEvents : public Compute {
   // called by fix LSM_RECORD
 
   void setup_record();
-  void record();
+  void end_step();
   void change_dt();
   void flush();
   void end_run();
@@ -78,6 +78,8 @@ class ComputeLSMEvents : public Compute {
   double begin[2] = {0.0, 0.0}, period[2] = {0.0, 0.0};
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
+  void record();
+  void refuse_gap() const;
   void write_rest();
   void set_memory();
   void open_files();

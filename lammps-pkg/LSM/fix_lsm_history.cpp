@@ -38,7 +38,7 @@ void FixLSMHistory::init()
     error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on "
                       "the path, so there is no "
                       "energy to be minimized; use pair style lsm/free, or a run with viscosity");
-  if (LSMScene::is_rerun(update))
+  if (LSMScene::is_rerun(lmp))
     error->all(FLERR,
                "Pair style lsm/friction does not work with rerun: snapshots do not hold the "
                "elongations of the "

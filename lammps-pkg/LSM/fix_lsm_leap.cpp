@@ -56,6 +56,11 @@ FixLSMLeap::~FixLSMLeap()
   // the other fixes may already be gone
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
   for (auto *p : lsm_fixes<FixLSMNVE>(modify)) p->raise_viscosity(0.0);
+  if (!force) return;
+  for (auto *p : LSMScene::contact_styles(force)) {
+    p->record_what &= ~LSMEnergySource::SLIP_RATE;
+    if (auto *friction = dynamic_cast<PairLSMFriction *>(p)) friction->time_ratio = 1.0;
+  }
 }
 
 void FixLSMLeap::init()
@@ -89,7 +94,6 @@ void FixLSMLeap::init()
   for (auto *p : LSMScene::contact_styles(force))
     if (auto *friction = dynamic_cast<PairLSMFriction *>(p)) {
       if (leaps()) friction->record_what |= LSMEnergySource::SLIP_RATE;
-      friction->slip_moment = 0.0;
       contacts.push_back(friction);
     }
   if (contacts.empty()) error->all(FLERR, "Fix lsm/leap {} needs a pair style lsm/friction", id);
@@ -110,6 +114,7 @@ void FixLSMLeap::setup(int /*vflag*/)
 {
   begun = true;
   looked = update->ntimestep;
+  for (auto *p : contacts) p->slip_moment = 0.0;
 
   // uniform shear between the plates: v grows from -fast to fast over the width
   loading_energy = 0.5 * group->mass(0) * fast * fast / 3.0;

@@ -81,6 +81,8 @@ void FixLSMNVE::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
+  LSMScene::set_up_next_run(lmp);
+  is_set_up = false;
   if (viscous) LSMScene::require_plain_units(lmp, "Fix lsm/nve viscosity");
   leave_clearing_to_integrator();    // a run that ended in an error has not
   reset_dt();
@@ -163,6 +165,7 @@ void FixLSMNVE::choose()
 
 void FixLSMNVE::setup(int /*vflag*/)
 {
+  is_set_up = true;
   ahead = FixLSMVelocity::in_use(lmp);
   choose();
 
@@ -174,7 +177,7 @@ void FixLSMNVE::setup(int /*vflag*/)
                    foreign);
   dt_limit = time_step_limit(NEARLY_CLOSED, omega);
   const bool was_continued = continued;
-  continued = true;
+  continued = continued || !LSMScene::is_rerun(lmp);
   if (dt_limit == 0.0 || update->dt <= dt_limit) return;
   const std::string what = ahead ? "links and contacts with kelvin-voigt" : "links and contacts";
 
@@ -276,6 +279,11 @@ void FixLSMNVE::add_longest_moves(std::vector<double> &of_blocks) const
 
 void FixLSMNVE::initial_integrate(int /*vflag*/)
 {
+  if (!is_set_up)
+    error->all(FLERR,
+               "Fix lsm/nve {}: a command of 'run ... every' has initialized LAMMPS, so that the "
+               "rest of the run needs a set-up; leave out 'pre no'",
+               id);
   if (group->dynamic[igroup]) collect();
   (this->*(pending ? both_chosen : initial_chosen))();
   pending = false;

@@ -66,6 +66,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   double omega = 0.0;           // bound of the highest frequency found at setup
   double dt_limit = 0.0;        // of a stable time step, 0 if there is none
   bool continued = false;       // after another run, or from a restart file
+  bool is_set_up = false;       // since the last init
   std::vector<double> alone;    // symmetric matrix of each particle: xx yy zz xy yz zx
 
   // particles of the group with the same viscosity that are contiguous in memory and in one block

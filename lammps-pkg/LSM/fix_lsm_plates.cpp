@@ -106,7 +106,7 @@ void FixLSMPlates::init()
     else if (!vy_known)
       plate[p].vy = velocity[1];
   }
-  if (update->whichflag == 1)
+  if (update->whichflag == 1 && !LSMScene::is_rerun(lmp))
     vy_known = true;    // velocities may still be set before the first run
 
   integrators = lsm_fixes<FixLSMNVE>(modify);

@@ -26,10 +26,10 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   atom->add_callback(Atom::GROW);
 }
 
-// needed within a run only, as a run notices changes made before it
+// a run notices changes made before it in its setup
 void FixLSMRecord::reset_dt()
 {
-  if (update->whichflag) owner->change_dt();
+  update->whichflag ? owner->change_dt() : LSMScene::set_up_next_run(lmp);
 }
 
 void FixLSMRecord::write_restart(FILE *fp)

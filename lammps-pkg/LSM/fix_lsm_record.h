@@ -28,7 +28,7 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   }
   void setup(int) override { owner->setup_record(); }
   void pre_exchange() override { owner->check_links(); }
-  void end_of_step() override { owner->record(); }
+  void end_of_step() override { owner->end_step(); }
   void post_run() override { owner->end_run(); }
   void reset_dt() override;
   void write_restart(FILE *) override;

@@ -3,16 +3,20 @@
 #include "fix_lsm_velocity.h"
 
 #include "atom.h"
+#include "bond_lsm_linked.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_lsm_nve.h"
+#include "force.h"
 #include "lsm_fixes.h"
 #include "lsm_mover.h"
 #include "lsm_scene.h"
 #include "modify.h"
+#include "pair_lsm_free.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -27,7 +31,7 @@ FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
   take_velocities(0);
 }
 
-FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
+FixLSMVelocity *FixLSMVelocity::of(LAMMPS *lmp)
 {
   Modify *const modify = lmp->modify;
   Fix *any = modify->get_fix_by_id(ID);
@@ -38,7 +42,6 @@ FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
   if (!one)
     lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which the package creates itself",
                     ID);
-  one->asked = true;
   return one;
 }
 
@@ -61,37 +64,40 @@ int FixLSMVelocity::setmask()
   return POST_INTEGRATE | PRE_FORCE | POST_FORCE | POST_RUN;
 }
 
-// viscous force styles asked for it in their init, which comes before that of fixes
 void FixLSMVelocity::init()
 {
-  used = asked;
-  asked = false;
-  extrapolated = 0;
+  const auto contacts = LSMScene::contact_styles(force);
+  const auto *const links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
+  used = (links && links->is_viscous()) ||
+         std::any_of(contacts.begin(), contacts.end(),
+                     [](const PairLSMFree *of) { return of->is_viscous(); });
   if (!used || update->whichflag != 1) return;
   for (const auto &leap : modify->get_fix_by_style("^lsm/leap"))
     error->all(FLERR,
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
                "whose blocks move faster than in model time",
                leap->id);
+  extrapolated = 0;
   for (const auto *mover : lsm_fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
-  if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(update))
+  if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(lmp))
     error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
                       "velocities to the time of the forces");
 }
 
 // If the velocities are still those of the end of the previous run, or of the restart file, the
 // forces are to be those of that end to the last bit. If a command has changed the velocities,
-// forces follow from them as they are.
+// forces follow from them as they are, and so they do in each snapshot of rerun.
 void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 {
   if (!used) return;
-  if (fingerprint() != known) take_velocities(0);
+  if (LSMScene::is_rerun(lmp) || fingerprint() != known) take_velocities(0);
   pre_force(0);
 }
 
 // particles moved by other fixes keep these velocities, as there are no better ones
 void FixLSMVelocity::post_integrate()
 {
+  running = true;
   if (used) take_velocities(extrapolated);
 }
 
@@ -123,6 +129,7 @@ void FixLSMVelocity::post_force(int /*vflag*/)
 
 void FixLSMVelocity::post_run()
 {
+  running = false;
   if (!used) return;
   LSMMover::complete_steps(modify);
   known = fingerprint();
@@ -151,10 +158,10 @@ void FixLSMVelocity::set_arrays(int i)
   memcpy(astore[i], atom->v[i], 3 * sizeof(double));
 }
 
-// In a run velocities are complete when a restart file is written; between two runs, commands may
-// have changed them.
+// In a run velocities are complete when a restart file is written; between two runs, or pieces of
+// one, commands may have changed them.
 void FixLSMVelocity::write_restart(FILE *fp)
 {
-  if (update->whichflag) known = fingerprint();
+  if (running) known = fingerprint();
   LSMKeptFix::write_restart(fp);
 }

@@ -28,8 +28,8 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
 
   /// Returns the fix of this scene to a force style that needs it, and creates it if necessary.
   /// Force styles call this in their init.
-  static FixLSMVelocity *ask_for(LAMMPS *);
-  /// Returns the fix of this scene, or null if no style needs it in this run.
+  static FixLSMVelocity *of(LAMMPS *);
+  /// Returns the fix of this scene, or null if no style needs it.
   static FixLSMVelocity *in_use(LAMMPS *);
 
   double *now(int i) const { return astore[i]; }
@@ -56,7 +56,8 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
   }
 
  private:
-  bool asked = false, used = false;
+  bool used = false;       // a force style is viscous
+  bool running = false;    // from the first step of a run to its end
   int extrapolated = 0;    // bits of groups whose velocities are set by the fixes that move them
   double power_before = 0.0;    // power in the previous evaluation
   std::uint64_t known = 0;      // fingerprint of the velocities that belong to `now`

@@ -70,6 +70,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
   const double *radius = contact_radii();
   const int *type = atom->type;
   const int nlocal = atom->nlocal;
+  const bool viscous = has_dashpots();
   Recorder recorder(*this, update->setupflag != 0);
 
   for (int n = 0; n < near.size(); n++) {
@@ -90,7 +91,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
     const double r = sqrt(rsq);
     double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
     const bool both = newton_pair || j < nlocal;
-    if (velocity && r > 0.0) {
+    if (viscous && r > 0.0) {
       double rate;
       const double more = dashpot(i, j, r, fpair * r, rate);
       fpair += more / r;
@@ -120,12 +121,24 @@ const double *PairLSMFree::contact_radii() const
   return own_radii ? own_radii->contact_radii() : atom->radius;
 }
 
-bool PairLSMFree::any_delay() const
+bool PairLSMFree::is_viscous() const
 {
   for (int i = 1; allocated && i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
       if (setflag[i][j] && delay[i][j] > 0.0) return true;
   return false;
+}
+
+// whether pair_write asks, which knows types and distances only
+bool PairLSMFree::is_for_table() const
+{
+  return update->whichflag == 0 && LSMScene::is_command(lmp, "pair_write");
+}
+
+// a minimizer has no velocities
+bool PairLSMFree::has_dashpots() const
+{
+  return velocity && update->whichflag != 2;
 }
 
 double PairLSMFree::dashpot(int i, int j, double r, double spring, double &rate) const
@@ -181,6 +194,7 @@ void PairLSMFree::coeff(int narg, char **arg)
   const double k_one = off ? 0.0 : utils::numeric(FLERR, arg[2], false, lmp);
   if (!off && k_one <= 0.0) error->all(FLERR, "{} k is {}, but must be > 0", who, k_one);
   if (!allocated) allocate();
+  LSMScene::set_up_next_run(lmp);
 
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
@@ -202,8 +216,8 @@ void PairLSMFree::init_style()
 {
   if (!atom->radius_flag)
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
-  record_nothing();
-  velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
+  LSMScene::set_up_next_run(lmp);
+  velocity = is_viscous() ? FixLSMVelocity::of(lmp) : nullptr;
   const auto others = lsm_fixes<LSMContactRadii>(modify);
   own_radii = others.empty() ? nullptr : others.front();
   newton_pair = force->newton_pair;
@@ -382,7 +396,8 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
   const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
   if (!active[lo][hi] || r >= r0 || r == 0.0) return 0.0;
   double push = -LSM::Spring::force(k[lo][hi], r - r0), rate;
-  if (velocity) push += dashpot(i, domain->closest_image(i, j), r, push, rate);
+  if (has_dashpots() && !is_for_table())
+    push += dashpot(i, domain->closest_image(i, j), r, push, rate);
   fforce = push / r;
   return LSM::Spring::energy(k[lo][hi], r - r0);
 }

@@ -47,6 +47,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   {
     return stiffness(itype, jtype) * delay[itype][jtype];
   }
+  bool is_viscous() const;    ///< by its coefficients
 
  protected:
   LSMTypePairs<double> k;        // contact stiffness
@@ -60,13 +61,14 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   bool screened = false;                         // the list holds pairs that must not interact
   const LSMContactRadii *own_radii = nullptr;    // a fix that gives contacts radii of their own
 
-  class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
+  class FixLSMVelocity *velocity = nullptr;    // null if no contact is viscous
 
   const double *contact_radii() const;
   /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Sets
   /// `rate` to the rate of change of r.
   double dashpot(int i, int j, double r, double spring, double &rate) const;
-  bool any_delay() const;
+  bool has_dashpots() const;
+  bool is_for_table() const;
 
   void check_special() const;
   void find_largest_radii();

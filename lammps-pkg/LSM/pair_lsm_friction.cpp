@@ -353,10 +353,14 @@ void PairLSMFriction::read_restart_settings(FILE *fp)
 double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                                double factor_lj, double &fforce)
 {
-  near.write_states();
   double energy = PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   std::fill_n(svector, single_extra, 0.0);
-  if (fforce == 0.0) return energy;
+  // pair_write asks for types, with particles that need not be of these types or in the list
+  const int *const type = atom->type;
+  if (fforce == 0.0 || is_for_table() || !list || list->inum == 0 || type[i] != itype ||
+      type[j] != jtype)
+    return energy;
+  near.write_states();
 
   const double kt = table[0][MIN(itype, jtype)][MAX(itype, jtype)];
   const int *jlist = list->firstneigh[i];

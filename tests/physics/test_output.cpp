@@ -57,6 +57,13 @@ TEST_F(Output, PiecesEndWithAFixHalt) {
   EXPECT_EQ(r.lines_with("Stopped at step 250 by a time limit or fix halt").size(), 1u);
   EXPECT_TRUE(std::filesystem::exists(path("halted.restart.250")));
   EXPECT_FALSE(std::filesystem::exists(path("halted.restart.end")));
+
+  const Result before = run_text(fault_read() + fault_shear("") +
+                                 "variable steps equal step\nfix enough all halt 10 v_steps >= 50 "
+                                 "error soft\nrun 100\nlsm_run 500 prefix before every 100\n");
+  EXPECT_EQ(before.exit_code, 75);
+  EXPECT_EQ(before.lines_with("stopped before its first step").size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(path("before.restart.50")));
 }
 
 // Contacts across the borders of ranks and of the box keep their springs.

@@ -66,7 +66,8 @@ static std::string numbers_of(const LSM::Event &e) {
 // An interval lasts 1, so that velocities are slips.
 TEST_F(Plane, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
   const std::string script =
-      upper_and_lower(events("ruptures ${name}.csv history ${name}.slip modulus 0.5")) +
+      upper_and_lower(
+          events("ruptures ${name}.csv history ${name}.slip modulus 0.5 catalogue ${name}.drops")) +
       moved({{0, 0, 0.02, -0.01}, {7, 1, 0.04, -0.02}, {4, 4, 0.003, 0.003}}) +
       moved({{1, 0, 0.0, 0.06}, {4, 4, 0.003, 0.003}}) + moved({{5, 5, -0.03, 0.04}}) + "run 60\n";
   std::vector<std::string> first;
@@ -77,6 +78,9 @@ TEST_F(Plane, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
       const auto catalogue = unit::read_catalogue(path("moved.csv"));
       EXPECT_TRUE(catalogue.info.plane);
+      const auto drops = unit::read_catalogue(path("moved.drops"));
+      EXPECT_TRUE(drops.info.friction);
+      EXPECT_FALSE(drops.info.slip_moment || drops.info.plane);
       EXPECT_EQ(*catalogue.info.find("slip_bin_dip"), "2");
       ASSERT_EQ(catalogue.events.size(), 2u);
       const LSM::Event &a = catalogue.events[0], &b = catalogue.events[1];

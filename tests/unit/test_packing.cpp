@@ -702,6 +702,13 @@ TEST(Packing, RefusesImpossibleSettings) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   expect_refused("rmin", [](S &s) { s.rmin = 1.0; });
+  // Rubble: what is left does not cover the fault line.
+  for (const double rmax : {0.5, 0.8})
+    expect_refused("loose", [rmax](S &s) {
+      s.length = 60.0;
+      s.rmin = 0.2;
+      s.rmax = rmax;
+    });
   expect_refused("rmin", [](S &s) { s.rmin = 2.0; });
   expect_refused("rmin", [](S &s) { s.rmin = 0.0; });
   expect_refused("rmax", [](S &s) { s.rmax = -1.0; });

@@ -41,7 +41,7 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
   if (update->whichflag == 2)
     error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
                       "run; uncompute it first");
-  if (LSMScene::is_rerun(update))
+  if (LSMScene::is_rerun(lmp))
     error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
                       "use thermo keyword pe for the energies of snapshots");
 
@@ -143,8 +143,9 @@ void LSMEventSources::find_sides(LSMEnergySource &style) const
 void LSMEventSources::release()
 {
   if (force) {
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond)) p->record_nothing();
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair)) p->record_nothing();
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond_match("lsm/linked")))
+      p->record_nothing();
+    for (auto *p : LSMScene::contact_styles(force)) p->record_nothing();
   }
   if (modify)
     for (auto *p : lsm_fixes<FixLSMNVE>(modify)) p->record_work = false;

@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "input.h"
 #include "lsm_keyword_reader.h"
 #include "math_extra.h"
 #include "neigh_list.h"
@@ -152,10 +153,19 @@ namespace LSMScene {
     return names;
   }
 
-  bool is_rerun(const Update *update)
+  bool is_command(const LAMMPS *lmp, const char *name)
   {
-    return update->whichflag == 1 && (update->ntimestep != update->firststep ||
-                                      update->laststep != update->firststep + update->nsteps);
+    return lmp->input->command && strcmp(lmp->input->command, name) == 0;
+  }
+
+  bool is_rerun(const LAMMPS *lmp)
+  {
+    return lmp->update->whichflag == 1 && is_command(lmp, "rerun");
+  }
+
+  void set_up_next_run(LAMMPS *lmp)
+  {
+    if (lmp->update->whichflag != 1 || is_rerun(lmp)) lmp->update->first_update = 0;
   }
 
   void require_plane(LAMMPS *lmp, const std::string &who)

@@ -59,9 +59,16 @@ namespace LSMScene {
   /// there is none.
   std::string foreign_forces(Force *);
 
-  /// Whether the command rerun evaluates snapshots. LAMMPS has no flag for it, but its steps are
-  /// not consecutive as those of a run, which begins at the present step and has the given length.
-  bool is_rerun(const Update *);
+  /// Whether a command of the input is being performed.
+  bool is_command(const LAMMPS *, const char *name);
+  /// Whether the command rerun evaluates snapshots.
+  bool is_rerun(const LAMMPS *);
+
+  /// Has the next run set up anew, also with 'pre no', unless a run begins or goes on right now. To
+  /// be called where what belongs to a run is replaced: in each init, which other commands call,
+  /// too (write_restart, pair_write, minimize, ...), most of which exchange particles; where
+  /// coefficients change; where fixes come and go.
+  void set_up_next_run(LAMMPS *);
 
   /// Stops unless the simulation is 2-dimensional and steps are those of velocity Verlet; `who`
   /// begins the message.

@@ -19,7 +19,7 @@ class LSMEnergySource {
 
   virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
 
-  int record_what = NONE;        ///< what to record; the style resets it at every init
+  int record_what = NONE;        ///< what to record, for those who asked until they go
   double pe_link = 0.0;          ///< link springs, at the last force evaluation
   double pe_contact = 0.0;       ///< normal contact springs, at the last force evaluation
   double pe_tangential = 0.0;    ///< tangential contact springs, at the last force evaluation

@@ -9,6 +9,7 @@
 #include "fix.h"
 #include "lsm_ranks.h"
 #include "lsm_restart_version.h"
+#include "lsm_scene.h"
 
 #include <cstdio>
 #include <vector>
@@ -48,6 +49,11 @@ template <class Self, class Base = Fix> class LSMKeptFix : public Base {
   LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Base(_lmp, narg, arg)
   {
     this->restart_global = 1;
+    LSMScene::set_up_next_run(_lmp);
+  }
+  ~LSMKeptFix() override
+  {
+    if (this->update) LSMScene::set_up_next_run(this->lmp);
   }
   void write_restart(FILE *fp) override
   {
