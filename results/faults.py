@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The three faults beside each other: what the article says of them, from the published catalogues and the CSV files beside this file. †
 
-faults.py POSTPROC                  writes the CSV files of the published catalogues, and all figures
+faults.py                           writes the CSV files of the published catalogues, and all figures
 faults.py publish POSTPROC RUN...   of runs (folders FAULT_LENGTH_PACKING): catalogue and ruptures into faults; those of length 120 are picked again,
                                  into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this
 faults.py discs PACKING.dump RUN    which discs ring, and how they are held, from frames RUN.STEP.dump (extra=fault_dump) of a run with contacts of
@@ -46,6 +46,7 @@ PUBLISHED = {
     "absorbing": ("faults/absorbing", "damping/damped", "campaign/fault")
 }
 FAULTS = tuple(PUBLISHED)
+FITTED = {"leaky.120": 2, "leaky.480": 1, "absorbing.120": 3, "absorbing.480": 1}  # packings by which values were chosen, of those published
 
 
 class Run(NamedTuple):
@@ -612,6 +613,39 @@ set multiplot layout 1,2
     draw(base, script + "unset multiplot\n", 1000, 480)
 
 
+# ---- half the velocity of the plates
+
+
+def velocity_rows():
+    """Rates at half the velocity over those at the full one, as the picker finds them and with the loading that lacks."""
+    found = {one.key: one for one in velocity_values()}
+    return [{"fault": fault, "size": least} | {
+        f"{kind}{ending}": x
+        for kind in ("slow", "loaded")
+        for ending, x in zip(("", "_error"), found[f"velocity.ratio.{kind}.{fault}.{least:g}"][1:3])
+    } for fault in FAULTS for least in SIZES]
+
+
+def velocity_figure(base=FOLDER / "velocity"):
+    write_table(f"{base}.csv", [
+        "Rates of drops of at least a size at half the velocity of the plates over those at the full one, length 120: as they are picked (slow),",
+        "and with the loading that lacks (loaded); errors from ten parts of the time (faults.py)"
+    ], velocity_rows())
+    script = PANELS + """set logscale x
+set xrange [0.6e-4:0.2]
+set yrange [0:1.3]
+set format x '10^{%L}'
+set xtics 10
+set xlabel 'drops of at least this size'
+set ylabel 'rate over that at the full velocity'
+unset key
+set title 'as the picker finds them'
+"""
+    guides = "1 w l lw 1 dt 2 lc rgb '#666666' notitle, 0.5 w l lw 1 dt 3 lc rgb '#666666' notitle"
+    script += panel((2, 3, 4), guides) + "unset ylabel\nset key bottom left\nset title 'with the missing loading added'\n" + panel((2, 5, 6), guides)
+    draw(base, script + "unset multiplot\n", 1000, 480)
+
+
 # ---- the numbers of sentences
 
 
@@ -623,6 +657,20 @@ def rate_values():
                 for least in SIZES if runs else ():
                     value = over(runs, lambda run: measure(run, least))
                     yield Value(f"rate.{name}.{fault}.{length}.{least:g}", *value, "1/1000", len(runs), sources(runs))
+
+
+def ratio_values():
+    """The largest over the smallest rate of the three faults, where all have one: at each length, and the largest of these."""
+    found = {one.key: one.value for one in rate_values()}
+    for name in "drops", "slips":
+        for least in SIZES:
+            ratios = {}
+            for length in LENGTHS:
+                rates = [found.get(f"rate.{name}.{fault}.{length}.{least:g}") for fault in FAULTS]
+                if None not in rates:
+                    ratios[length] = max(rates) / min(rates)
+            for length, ratio in [*ratios.items(), ("most", max(ratios.values()))]:
+                yield Value(f"ratio.{name}.{length}.{least:g}", ratio, math.nan, "", 3, "values.csv")
 
 
 def fit_values(postproc):
@@ -841,7 +889,7 @@ def cut_values(postproc):
 
 def all_values(postproc):
     return [
-        *rate_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(), *rupture_values(),
+        *rate_values(), *ratio_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(), *rupture_values(),
         *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
     ]
 
@@ -851,8 +899,7 @@ if __name__ == "__main__":
         sys.exit(publish_runs(*sys.argv[2:]))
     if sys.argv[1:2] == ["discs"] and len(sys.argv) == 4:
         sys.exit(discs(*sys.argv[2:]))
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 1:
         sys.exit(__doc__)
-    rates_figure()
-    estimators_figure()
-    ruptures_figure()
+    for figure in rates_figure, velocity_figure, estimators_figure, ruptures_figure:
+        figure()

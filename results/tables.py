@@ -201,7 +201,9 @@ def agreement_table():
     columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
     rows = [f"{fault}.{length}" for fault in article.FAULTS for length in (120, 480, 1890)]
     head, line, *rest = keyed_table("fault, length", rows, columns).split("\n")
-    return "\n".join([head, line, f"| paper, all lengths | {article.PAPER:.0f} |  | 1.07 | 0.995 | 15.2 |", *rest])
+    packings = [f"{values.read()[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)} |" for row in rows]
+    lines = [head + " packings, of which fitted |", line + "---|", f"| paper, all lengths | {article.PAPER:.0f} |  | 1.07 | 0.995 | 15.2 |  |"]
+    return "\n".join(lines + [f"{cells} {packing}" for cells, packing in zip(rest, packings)])
 
 
 def scaling_of(kind, least, folder=CAMPAIGN):
@@ -883,12 +885,12 @@ def threshold_table():
     return keyed_table("fault", article.FAULTS, columns)
 
 
-def half_velocity_table():
-    """Rates at half the velocity over those at the full one, with the loading that lacks."""
-    rows = [f"{fault}.{size:g}" for fault in article.FAULTS for size in article.SIZES]
-    columns = {"in 1000 time units": ("velocity.full.{}", "()"), "half the velocity": ("velocity.slow.{}", "()")}
-    columns |= {"with the loading of the full one": ("velocity.loaded.{}", "()"), "over the first": ("velocity.ratio.loaded.{}", "()")}
-    return keyed_table("fault, drops of at least", rows, columns)
+def beside_table():
+    """The three faults beside each other, at the shortest length."""
+    columns = {"drops >= 1e-4": ("rate.drops.{}.120.0.0001", "()"), "slips >= 0.1 †": ("rate.slips.{}.120.0.1", "()")}
+    columns |= {f"ruptures >= {size} †": (f"ruptures.rate.{{}}.120.{size}", "()") for size in ("0.001", "0.01", "0.1")}
+    columns |= {"work of friction": ("budget.work.{}.120", "()"), "of it in slips >= 0.1, %": ("budget.share.{}.120", "%()")}
+    return keyed_table("length 120, in 1000 time units", article.FAULTS, columns)
 
 
 def bursts_table():
