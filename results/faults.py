@@ -621,8 +621,7 @@ def velocity_rows():
     found = {one.key: one for one in velocity_values()}
     return [{"fault": fault, "size": least} | {
         f"{kind}{ending}": x
-        for kind in ("slow", "loaded")
-        for ending, x in zip(("", "_error"), found[f"velocity.ratio.{kind}.{fault}.{least:g}"][1:3])
+        for kind in ("slow", "loaded") for ending, x in zip(("", "_error"), found[f"velocity.ratio.{kind}.{fault}.{least:g}"][1:3])
     } for fault in FAULTS for least in SIZES]
 
 
@@ -889,8 +888,8 @@ def cut_values(postproc):
 
 def all_values(postproc):
     return [
-        *rate_values(), *ratio_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(), *rupture_values(),
-        *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
+        *rate_values(), *ratio_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(),
+        *rupture_values(), *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
     ]
 
 
