@@ -27,9 +27,9 @@ class Outputs {
     probe(o_.checkpoint);
     catalogue_info_.model = series_info_.model = "block-slider";
     catalogue_info_.parameters = o_.header;
-    catalogue_info_.slip_moment = true;
-    catalogue_info_.x_centroid = o_.x_centroid;
-    catalogue_info_.rupture_length = o_.rupture_length;
+    catalogue_info_.columns = {"slip_moment"};
+    if (o_.x_centroid) catalogue_info_.columns.emplace_back("x_centroid");
+    if (o_.rupture_length) catalogue_info_.columns.emplace_back("rupture_length");
     series_info_.dt = o_.parameters.dt;
     series_info_.stride = o_.series_stride;
     // The header of a series has a key of its own for the time step.
@@ -54,7 +54,8 @@ class Outputs {
     if (!o_.series.empty()) series_.cut_with_new_header();
   }
 
-  void event(const LSM::Event &event) {
+  template <class Kind>
+  void event(const Kind &event) {
     if (catalogue_.is_open()) catalogue_.write(event);
   }
   /// Writes the sample of a step if it is due.

@@ -97,7 +97,8 @@ class Run {
   }
 
   /// Writes an event that has passed the filter.
-  void write(LSM::Event &e) {
+  template <class Kind>
+  void write(Kind e) {
     filter_.number(e);
     state_.largest = std::max(state_.largest, e.size);
     outputs_.event(e);
@@ -161,13 +162,14 @@ class PeRun : public Run {
       if (located()) state_.u_start = chain_.displacements();
     }
     if (!ended || !filter_.passes(event_)) return;
-    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
-    if (is_by_plate(event_, strongest_)) {
+    LSM::Drop drop{event_};
+    drop.slip_moment = chain_.slip_sum() - state_.slip_start;
+    if (is_by_plate(drop, strongest_)) {
       ++state_.by_plate;
       if (!o_.keep_by_plate) return;
     }
-    if (located()) locate();
-    write(event_);
+    if (located()) locate(drop);
+    write(drop);
   }
 
   /// Jumps over steps in which nothing slips: only the plate changes PE then, and no event can
@@ -203,15 +205,15 @@ class PeRun : public Run {
 
   bool located() const { return o_.x_centroid || o_.rupture_length; }
 
-  void locate() {
+  void locate(LSM::Drop &drop) const {
     const std::vector<double> u = chain_.displacements();
     LSM::CircularMean mean(static_cast<double>(u.size()));
     for (std::size_t i = 0; i < u.size(); ++i) {
       const double slip = u[i] - state_.u_start[i];
-      if (slip > 0.0) event_.rupture_length += 1.0;
+      if (slip > 0.0) drop.rupture_length += 1.0;
       mean.add(static_cast<double>(i), slip);
     }
-    event_.x_centroid = mean.position();
+    drop.x_centroid = mean.position();
   }
 
   LSM::EventPicker picker_;
@@ -248,7 +250,7 @@ class RuptureRun : public Run {
       throw std::runtime_error("potential energy at step " + std::to_string(chain_.step()) +
                                " is not a finite number");
     tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) {
-      LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
+      const LSM::Rupture e = tracker_.event(rupture, o_.parameters.dt);
       if (filter_.passes(e)) write(e);
     });
   }

@@ -68,7 +68,7 @@ constexpr double leap_calm = 50.0;
 /// than the highest strength times the total slip, so that the plate has taken whatever exceeds
 /// this † (the paper counts all drops).
 /// \param strongest highest strength of the blocks
-inline bool is_by_plate(const LSM::Event &drop, double strongest) {
+inline bool is_by_plate(const LSM::Drop &drop, double strongest) {
   return drop.size > strongest * drop.slip_moment;
 }
 

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "numerics/circular_mean.h"
-#include "events/event_picker.h"
 #include "events/slip_sets.h"
+#include "files/event.h"
 
 namespace Slider {
 
@@ -98,8 +98,8 @@ class RuptureTracker : public LSM::SlipSets<Rupture> {
   }
 
   /// The rupture as a row of a catalogue, without its number.
-  LSM::Event event(const Rupture &r, double dt) const {
-    LSM::Event e;
+  LSM::Rupture event(const Rupture &r, double dt) const {
+    LSM::Rupture e;
     e.step_start = r.step_start;
     e.step_end = r.step_end;
     e.t_start = dt * static_cast<double>(r.step_start);

@@ -192,7 +192,8 @@ class Export : public CatalogueAnalysis {
   /// Degrees of longitude per unit of model length.
   double degrees(const CatalogueInfo &info) const {
     constexpr double metres = 111194.9;  // per degree on a sphere with a radius of 6371 km
-    if (degrees_ || !info.x_centroid || !magnitudes_.units.given()) return degrees_.value_or(0.0);
+    if (degrees_ || !info.has("x_centroid") || !magnitudes_.units.given())
+      return degrees_.value_or(0.0);
     return magnitudes_.units.units().length / metres;
   }
 
@@ -220,14 +221,15 @@ class Export : public CatalogueAnalysis {
     for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
       MagnitudeScale scale;
       double per_length = 0.0, second = 0.0;
+      CatalogueInfo info;
       const auto begin = [&](const EventTable &table) {
         (table.earthquakes() ? quakes : models) = true;
         if (table.earthquakes()) return;
         check_conventions();
         scale = magnitudes_.scale(path, table.info);
         second = unit_ ? *unit_ : magnitudes_.units.units(path, table.info).time();
-        per_length = degrees(table.info);
-        if (per_length != 0.0 && !table.info.x_centroid)
+        per_length = degrees(info = table.info);
+        if (per_length != 0.0 && !table.info.has("x_centroid"))
           throw std::runtime_error(
               path +
               ": has no column x_centroid, expected one for --degrees-per-length (fault: -var "
@@ -251,7 +253,7 @@ class Export : public CatalogueAnalysis {
           return write({event, number, date, binned(quake->magnitude, bin), quake->longitude,
                         quake->latitude, quake->depth, unknown});
         }
-        const double quantity = magnitudes_.quantity(event);
+        const double quantity = magnitudes_.quantity(event, info);
         if (!(quantity > 0.0)) {
           ++without;
           return;
@@ -262,8 +264,8 @@ class Export : public CatalogueAnalysis {
               fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
                           "expected another --time-unit or --start-date",
                           path, event.id, event.t_start, format->last_year));
-        write({event, number, date, binned(scale.of(quantity), bin), event.x_centroid * per_length,
-               0.0, 0.0, of_model});
+        write({event, number, date, binned(scale.of(quantity), bin),
+               info.number(event, "x_centroid") * per_length, 0.0, 0.0, of_model});
       };
       const EventTable table = read_events(path, one, use, begin);
       state_repairs(table);

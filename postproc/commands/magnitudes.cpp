@@ -50,13 +50,15 @@ class Magnitudes : public Statistic {
   std::vector<double> magnitudes_in(const EventTable &table, const MagnitudeScale &scale) const {
     std::vector<double> out;
     const double bin = table.bins.width;
+    const auto add = [&](double quantity) {
+      if (quantity > 0.0) out.push_back(binned(scale.of(quantity), bin));
+    };
     if (table.earthquakes())
       for (const double magnitude : table.magnitudes) out.push_back(binned(magnitude, bin));
+    else if (magnitudes_.of_moment())
+      for (const EventRow &event : table.details) add(magnitudes_.quantity(event, table.info));
     else
-      for (const double quantity : magnitudes_.of_moment()
-                                       ? column(table.details, &Event::slip_moment)
-                                       : column(table.events, &Event::size))
-        if (quantity > 0.0) out.push_back(binned(scale.of(quantity), bin));
+      for (const EventSummary &event : table.events) add(event.size);
     return out;
   }
 

@@ -151,7 +151,7 @@ std::string MagnitudeOptions::text() const {
 }
 
 void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {
-  if (of_moment() && !info.slip_moment)
+  if (of_moment() && !info.has("slip_moment"))
     throw std::runtime_error(path +
                              ": has no column slip_moment, expected one for --magnitude-of moment "
                              "(fault: -var location yes; else --magnitude-of size)");

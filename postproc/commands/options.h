@@ -68,7 +68,9 @@ struct MagnitudeOptions {
   /// Name of the column from which magnitudes are calculated.
   std::string of() const { return of_moment() ? "slip_moment" : "size"; }
   bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && units.given()); }
-  double quantity(const Event &event) const { return of_moment() ? event.slip_moment : event.size; }
+  double quantity(const EventRow &event, const CatalogueInfo &info) const {
+    return of_moment() ? info.number(event, "slip_moment") : event.size;
+  }
   /// Type of the magnitude: Mw or Me in SI units, otherwise M.
   std::string type() const;
   /// Formula of the magnitude, for people.

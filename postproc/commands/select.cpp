@@ -55,7 +55,7 @@ class Select : public CatalogueAnalysis {
     const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
     CatalogueWriter &writer = file->writer;
     const EventTable table = read_events(
-        catalogues.paths.front(), catalogues, [&](const Event &event) { writer.write(event); },
+        catalogues.paths.front(), catalogues, [&](const EventRow &event) { writer.write(event); },
         [&](const EventTable &of) {
           if (of.earthquakes())
             throw std::invalid_argument(of.path + ": earthquakes, expected a catalogue of a model");

@@ -89,7 +89,8 @@ std::string all_of(files::Bytes &bytes, const std::string &format) {
 bool choose(const ReadEvent &event, double from, double to, const CatalogueOptions &options,
             EventTable &table, const UseEvent &use) {
   constexpr double largest = 1e100;
-  for (const double number : {event.t_start, event.t_end, event.size, event.slip_moment})
+  for (const double number :
+       {event.t_start, event.t_end, event.size, table.info.number(event, "slip_moment")})
     if (!(std::fabs(number) <= largest))
       throw FileError(fmt::format("{}: event {} has a time or size of {}, expected at most {}",
                                   table.path, event.id, number, largest));
@@ -248,11 +249,11 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
 namespace {
 
 /// Keeps the `most` largest events, and those as large as the smallest of them.
-void keep_largest(std::vector<Event> &events, std::size_t most) {
+void keep_largest(std::vector<EventRow> &events, std::size_t most) {
   if (events.size() <= most) return;
   const double least = nth_largest(column(events, &Event::size), most);
   events.erase(std::remove_if(events.begin(), events.end(),
-                              [least](const Event &event) { return event.size < least; }),
+                              [least](const EventRow &event) { return event.size < least; }),
                events.end());
 }
 
@@ -260,7 +261,7 @@ void keep_largest(std::vector<Event> &events, std::size_t most) {
 
 EventTable read_all(const std::string &path, const CatalogueOptions &options) {
   std::vector<EventSummary> events;
-  std::vector<Event> details;
+  std::vector<EventRow> details;
   // Reserves memory for as many events as the file can have, with lines of the shortest possible
   // length: a growing vector would touch each page twice.
   std::error_code ignored;
@@ -269,7 +270,7 @@ EventTable read_all(const std::string &path, const CatalogueOptions &options) {
   if (!ignored) events.reserve(bytes / shortest_line);
   ask_for_huge_pages(events.data(), events.capacity() * sizeof(EventSummary));
   std::size_t room = 2 * options.details;
-  EventTable table = read_events(path, options, [&](const Event &event) {
+  EventTable table = read_events(path, options, [&](const EventRow &event) {
     events.push_back(event);
     if (options.details == 0) return;
     details.push_back(event);

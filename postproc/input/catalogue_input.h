@@ -51,7 +51,7 @@ struct CatalogueOptions {
 };
 
 /// An event as it is read.
-struct ReadEvent : Event {
+struct ReadEvent : EventRow {
   const Earthquake *earthquake = nullptr;  ///< nullptr: of a model
 };
 

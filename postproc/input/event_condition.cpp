@@ -36,18 +36,24 @@ EventCondition parse_condition(const std::string &text) {
 }
 
 EventConditions::EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
-                                 const std::string &path) {
-  std::vector<CatalogueColumn> columns = columns_of(info);
-  if (info.friction) columns.push_back({"excess"});
+                                 const std::string &path)
+    : info_(info) {
+  const std::vector<CatalogueColumn> columns = columns_of(info);
+  const bool excess = info.has("friction_work") && info.has("friction_total");
   for (const std::string &text : texts) {
     const EventCondition condition = parse_condition(text);
     const auto found = std::find_if(
         columns.begin(), columns.end(),
         [&condition](const CatalogueColumn &column) { return column.name == condition.column; });
+    if (found == columns.end() && excess && condition.column == "excess") {
+      all_.push_back({condition, std::nullopt});
+      continue;
+    }
     if (found == columns.end()) {
       std::string names;
       for (const CatalogueColumn &column : columns)
         names += (names.empty() ? "" : ", ") + std::string(column.name);
+      if (excess) names += ", excess";
       throw FileError(fmt::format("{}: has no column {}, expected one of {} for --where", path,
                                   condition.column, names));
     }
@@ -56,38 +62,40 @@ EventConditions::EventConditions(const std::vector<std::string> &texts, const Ca
 }
 
 bool EventConditions::needs_friction_between() const {
-  return std::any_of(all_.begin(), all_.end(), [](const One &one) { return one.is_excess(); });
+  return std::any_of(all_.begin(), all_.end(), [](const One &one) { return !one.column; });
 }
 
-void EventConditions::add_friction_between(const Event &before, const Event &after) {
-  friction_between_ += after.friction_total - after.friction_work - before.friction_total;
+void EventConditions::add_friction_between(const EventRow &before, const EventRow &after) {
+  friction_between_ += info_.number(after, "friction_total") -
+                       info_.number(after, "friction_work") -
+                       info_.number(before, "friction_total");
   time_between_ += after.t_start - before.t_end;
 }
 
-double EventConditions::One::of(const Event &event, double friction, double time) const {
-  if (is_excess())
-    return (event.friction_work - friction / time * (event.t_end - event.t_start)) / event.size;
-  return column.number ? event.*column.number : static_cast<double>(event.*column.integer);
+double EventConditions::value(const One &one, const EventRow &event) const {
+  if (one.column) return one.column->of(event);
+  return (info_.number(event, "friction_work") -
+          friction_between_ / time_between_ * (event.t_end - event.t_start)) /
+         event.size;
 }
 
-bool EventConditions::hold(const Event &event) const {
+bool EventConditions::hold(const EventRow &event) const {
   using Is = EventCondition::Is;
   return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
-    const double value = one.of(event, friction_between_, time_between_),
-                 number = one.condition.number;
+    const double found = value(one, event), number = one.condition.number;
     switch (one.condition.is) {
       case Is::less:
-        return value < number;
+        return found < number;
       case Is::at_most:
-        return value <= number;
+        return found <= number;
       case Is::more:
-        return value > number;
+        return found > number;
       case Is::at_least:
-        return value >= number;
+        return found >= number;
       case Is::equal:
-        return value == number;
+        return found == number;
       case Is::different:
-        return value != number;
+        return found != number;
     }
     return false;
   });

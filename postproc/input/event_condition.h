@@ -8,6 +8,7 @@
 #ifndef LSM_POSTPROC_EVENT_CONDITION_H
 #define LSM_POSTPROC_EVENT_CONDITION_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,20 +38,21 @@ class EventConditions {
   /// Whether one of the conditions needs the power of friction between events.
   bool needs_friction_between() const;
   /// Adds what friction does between two events that follow each other.
-  void add_friction_between(const Event &before, const Event &after);
+  void add_friction_between(const EventRow &before, const EventRow &after);
   /// Whether there is time between the events that were added.
   bool has_friction_between() const { return time_between_ > 0.0; }
-  bool hold(const Event &event) const;
+  bool hold(const EventRow &event) const;
   /// The size below which conditions on the size leave out all events; 0 without such a condition.
   double least_size() const;
 
  private:
   struct One {
     EventCondition condition;
-    CatalogueColumn column;
-    bool is_excess() const { return !column.number && !column.integer; }
-    double of(const Event &event, double friction, double time) const;  ///< between events
+    std::optional<CatalogueColumn> column;  ///< none: excess
   };
+  double value(const One &one, const EventRow &event) const;
+
+  CatalogueInfo info_;
   std::vector<One> all_;
   double friction_between_ = 0.0, time_between_ = 0.0;
 };

@@ -159,9 +159,7 @@ json events_json(const ExploreEvents &kind, PageData &data) {
   json names = json::array();
   for (const CatalogueColumn &column : columns_of(table.info)) {
     names.push_back(column.name);
-    for (const Event &event : table.details)
-      cells.push_back(column.number ? event.*column.number
-                                    : static_cast<double>(event.*column.integer));
+    for (const EventRow &event : table.details) cells.push_back(column.of(event));
   }
   const SmallestSize usual = Threshold().of(table);
   return {{"kind", table.kind() == "pe" ? "drops" : table.kind()},

@@ -41,7 +41,7 @@ struct EventTable {
   CatalogueInfo info;
   std::vector<EventSummary> events;  ///< in order of t_start
   /// The largest of the events, as many as were requested, with all columns.
-  std::vector<Event> details;
+  std::vector<EventRow> details;
   /// Of earthquakes, as in the file and in the order of the events, from which their sizes follow;
   /// empty for models.
   std::vector<double> magnitudes;

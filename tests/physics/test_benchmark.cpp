@@ -108,8 +108,8 @@ TEST_F(Benchmark, RanksAgree) {
 TEST_F(Benchmark, RupturesStillOpenAreWrittenIfAsked) {
   Variables variables = small("open");
   ASSERT_TRUE(succeeded(run_scene("rupture_tpv205.in", variables)));
-  LSM::Event largest;
-  for (const LSM::Event &event : unit::read_catalogue(path("open.ruptures.csv")).events)
+  LSM::Rupture largest;
+  for (const auto &event : unit::read_catalogue<LSM::Rupture>(path("open.ruptures.csv")).events)
     if (event.rupture_length > largest.rupture_length) largest = event;
   EXPECT_NEAR(largest.t_end, 1.5, 1e-9);  // it still slips
   EXPECT_GE(largest.rupture_length, 3000.0);

@@ -18,7 +18,8 @@ using Events = Fault;
 using Ranks = Fault;
 using MassFloor = Fault;
 
-static void expect_same_events(const std::vector<LSM::Event> &a, const std::vector<LSM::Event> &b,
+template <class Kind>
+static void expect_same_events(const std::vector<Kind> &a, const std::vector<Kind> &b,
                                double tolerance) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
@@ -106,8 +107,8 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
     EXPECT_LT(off, 1e-7);
     EXPECT_EQ(tail.last("c_events"), second.last("c_events"));
 
-    const auto a = unit::read_catalogue(path("whole" + tag + ".csv"));
-    const auto b = unit::read_catalogue(path("resumed" + tag + ".csv"));
+    const auto a = unit::read_catalogue<LSM::Drop>(path("whole" + tag + ".csv"));
+    const auto b = unit::read_catalogue<LSM::Drop>(path("resumed" + tag + ".csv"));
     EXPECT_GT(a.events.size(), 3u);
     expect_same_events(a.events, b.events, 1e-9);
     for (std::size_t n = 0; n < std::min(a.events.size(), b.events.size()); ++n)
@@ -328,7 +329,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
                              "thermo ${thermo}\nrun 5000\n";
   const Result r = run_text(script, {{"thermo", "1"}});
   ASSERT_TRUE(succeeded(r));
-  const auto catalogue = unit::read_catalogue(path("located.csv"));
+  const auto catalogue = unit::read_catalogue<LSM::Drop>(path("located.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
   std::size_t elsewhere = 0;
   double lost = 0.0, moment = 0.0;
@@ -359,10 +360,10 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
 
   // The slip gathered from two ranks is the same.
   ASSERT_TRUE(succeeded(run_text(script, {{"thermo", "1000"}}, 2)));
-  const auto two = unit::read_catalogue(path("located.csv"));
+  const auto two = unit::read_catalogue<LSM::Drop>(path("located.csv"));
   expect_same_events(catalogue.events, two.events, 1e-9);
   for (std::size_t n = 0; n < std::min(two.events.size(), catalogue.events.size()); ++n) {
-    const LSM::Event &a = catalogue.events[n], &b = two.events[n];
+    const LSM::Drop &a = catalogue.events[n], &b = two.events[n];
     EXPECT_NEAR(a.slip_moment, b.slip_moment, 1e-5 * a.peak_slip);
     EXPECT_NEAR(a.peak_slip, b.peak_slip, 1e-6 * a.peak_slip);
     EXPECT_NEAR(std::remainder(a.x_centroid - b.x_centroid, 40.0), 0.0, 1e-3);

@@ -469,7 +469,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
     EXPECT_NEAR(whole.last("E_pair"), whole.last("c_events[7]") + whole.last("c_events[8]"), 1e-12)
         << name;
     double moment = 0.0;
-    for (const auto &event : unit::read_catalogue(path(name + ".csv")).events)
+    for (const auto &event : unit::read_catalogue<LSM::Drop>(path(name + ".csv")).events)
       moment += event.slip_moment;
     EXPECT_GT(moment, 0.0) << name;
 

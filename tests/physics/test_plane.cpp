@@ -53,7 +53,7 @@ static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
 }
 
 /// An event with every number, but PE, as text.
-static std::string numbers_of(const LSM::Event &e) {
+static std::string numbers_of(const LSM::PlaneRupture &e) {
   std::string all;
   for (const double number :
        {e.t_start, e.t_end, e.size, e.slip_moment, e.moment_strike, e.moment_dip, e.x_centroid,
@@ -76,14 +76,14 @@ TEST_F(Plane, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
     for (int ranks : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, newton " + newton);
       ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
-      const auto catalogue = unit::read_catalogue(path("moved.csv"));
-      EXPECT_TRUE(catalogue.info.plane);
-      const auto drops = unit::read_catalogue(path("moved.drops"));
-      EXPECT_TRUE(drops.info.friction);
-      EXPECT_FALSE(drops.info.slip_moment || drops.info.plane);
+      const auto catalogue = unit::read_catalogue<LSM::PlaneRupture>(path("moved.csv"));
+      EXPECT_TRUE(catalogue.info.has("z_begin"));
+      const auto drops = unit::read_catalogue<LSM::Drop>(path("moved.drops"));
+      EXPECT_EQ(drops.info.columns,
+                (std::vector<std::string_view>{"friction_work", "friction_total"}));
       EXPECT_EQ(*catalogue.info.find("slip_bin_dip"), "2");
       ASSERT_EQ(catalogue.events.size(), 2u);
-      const LSM::Event &a = catalogue.events[0], &b = catalogue.events[1];
+      const LSM::PlaneRupture &a = catalogue.events[0], &b = catalogue.events[1];
       const double close = 1e-6;
       // Cells (7, 1) and (0, 0) share a corner across the seam; (1, 0) follows.
       EXPECT_EQ(a.step_start, 0);
@@ -180,7 +180,7 @@ TEST_F(Plane, RunsGoOnByteForByte) {
     ASSERT_TRUE(succeeded(run_text(again, {}, ranks)));
     for (const char *ending : {".csv", ".slip", ".pe", ".drops"})
       EXPECT_EQ(read_file(path(whole + ending)), read_file(path(part + ending))) << ending;
-    const auto found = unit::read_catalogue(path(whole + ".csv")).events;
+    const auto found = unit::read_catalogue<LSM::PlaneRupture>(path(whole + ".csv")).events;
     ASSERT_GE(found.size(), 2u);
     bool open = false;
     for (const LSM::Event &e : found) open = open || (e.step_start < 34 && e.step_end > 34);

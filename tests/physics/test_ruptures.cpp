@@ -98,12 +98,12 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       moved({{5, 0.002}}, 60);
   const double close = 1e-6;
   std::string first;
-  std::vector<LSM::Event> one;
+  std::vector<LSM::Rupture> one;
   for (const char *newton : {"off", "on"})
     for (int ranks : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, newton " + newton);
       ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
-      const auto catalogue = unit::read_catalogue(path("moved.csv"));
+      const auto catalogue = unit::read_catalogue<LSM::Rupture>(path("moved.csv"));
       ASSERT_EQ(catalogue.events.size(), 3u);
       const auto &a = catalogue.events[0], &b = catalogue.events[1], &c = catalogue.events[2];
       // Both ended with step 30; the one that began first comes first.
@@ -168,8 +168,8 @@ static std::string sheared(const std::string &events) {
   return "variable prefix index whole\n" + fault_read() + fault_shear(events) + "thermo 1000\n";
 }
 
-static void expect_same_ruptures(const std::vector<LSM::Event> &a, const std::vector<LSM::Event> &b,
-                                 double tolerance) {
+static void expect_same_ruptures(const std::vector<LSM::Rupture> &a,
+                                 const std::vector<LSM::Rupture> &b, double tolerance) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
     SCOPED_TRACE(n);
@@ -212,7 +212,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
     EXPECT_EQ(plain[n].size, drops[n].size);
   }
 
-  const auto catalogue = unit::read_catalogue(path("found.csv"));
+  const auto catalogue = unit::read_catalogue<LSM::Rupture>(path("found.csv"));
   EXPECT_EQ(r.last("c_events"), static_cast<double>(drops.size()));
   EXPECT_EQ(r.last("c_events[18]"), static_cast<double>(catalogue.events.size()));
   EXPECT_EQ(r.last("c_events[19]"), catalogue.events.back().size);
@@ -220,7 +220,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
       LSM::SlipHistoryReader(LSM::files::open_plain(path("found.slip"))).info();
   const auto records = records_of(path("found.slip"));
   const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
-  std::vector<LSM::Event> expected;
+  std::vector<LSM::Rupture> expected;
   double written = 0.0;
   std::size_t large = 0;
   for (const auto &e : slow.events)
@@ -290,7 +290,7 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
     double whole = 0.0;
     for (std::size_t b = 0; b < bins; ++b) whole += factor * slip_between(0, 6000, b);
 
-    const auto drops = unit::read_catalogue(path(prefix + ".drops"));
+    const auto drops = unit::read_catalogue<LSM::Drop>(path(prefix + ".drops"));
     EXPECT_EQ(*drops.info.find("modulus"), LSM::text::number(info.ruptures.modulus));
     ASSERT_GT(drops.events.size(), 3u);
     double in_drops = 0.0;
@@ -370,13 +370,13 @@ TEST_F(Ruptures, SlipAndWorkOfTheFaultAddUp) {
 }
 
 TEST_F(Ruptures, OfAFaultAgreeOnAllRankCounts) {
-  std::vector<LSM::Event> one;
+  std::vector<LSM::Rupture> one;
   for (int ranks : {1, 2, 4}) {
     SCOPED_TRACE(ranks);
     const std::string prefix = "ranks" + std::to_string(ranks);
     ASSERT_TRUE(succeeded(run_text(sheared(found + std::string("slipping 1")) + "run 3000\n",
                                    {{"prefix", prefix}}, ranks)));
-    const auto events = unit::read_catalogue(path(prefix + ".csv")).events;
+    const auto events = unit::read_catalogue<LSM::Rupture>(path(prefix + ".csv")).events;
     if (ranks == 1) one = events;
     EXPECT_GT(events.size(), 2u);
     expect_same_ruptures(one, events, 1e-6);
@@ -403,8 +403,8 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
     const Result second = run_text(again, {}, ranks);
     ASSERT_TRUE(succeeded(second));
     EXPECT_EQ(second.last("c_events"), whole.last("c_events"));
-    const auto a = unit::read_catalogue(path("whole" + tag + ".csv")).events;
-    const auto b = unit::read_catalogue(path("resumed" + tag + ".csv")).events;
+    const auto a = unit::read_catalogue<LSM::Rupture>(path("whole" + tag + ".csv")).events;
+    const auto b = unit::read_catalogue<LSM::Rupture>(path("resumed" + tag + ".csv")).events;
     std::size_t open = 0;
     for (const auto &e : a)
       if (e.step_start < 1500 && e.step_end > 1505) ++open;
@@ -486,7 +486,7 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   for (int ranks : {1, 2, 4}) {
     SCOPED_TRACE(ranks);
     ASSERT_TRUE(succeeded(run_text(script, {}, ranks)));
-    const auto catalogue = unit::read_catalogue(path("located.csv"));
+    const auto catalogue = unit::read_catalogue<LSM::Drop>(path("located.csv"));
     ASSERT_EQ(catalogue.events.size(), 1u);
     const auto &e = catalogue.events[0];
     EXPECT_EQ(e.step_start, 10);

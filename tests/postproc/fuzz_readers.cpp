@@ -70,32 +70,23 @@ struct Outcome {
   std::string message;
 };
 
-bool same(const LSM::Event &a, const LSM::Event &b) {
+bool same(const LSM::EventRow &a, const LSM::EventRow &b) {
   return a.id == b.id && a.t_start == b.t_start && a.t_end == b.t_end &&
          a.step_start == b.step_start && a.step_end == b.step_end && a.size == b.size &&
-         a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.slip_moment == b.slip_moment &&
-         a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length &&
-         a.x_hypocentre == b.x_hypocentre && a.x_begin == b.x_begin && a.mean_slip == b.mean_slip &&
-         a.stress_drop == b.stress_drop && a.peak_slip == b.peak_slip &&
-         a.moment_strike == b.moment_strike && a.moment_dip == b.moment_dip &&
-         a.z_centroid == b.z_centroid && a.rupture_width == b.rupture_width &&
-         a.rupture_area == b.rupture_area && a.z_hypocentre == b.z_hypocentre &&
-         a.z_begin == b.z_begin && a.peak_slip_rate == b.peak_slip_rate &&
-         a.friction_work == b.friction_work && a.friction_total == b.friction_total;
+         a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.more == b.more;
 }
 
-Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
+Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::EventRow> &events,
+                       std::vector<std::string_view> &columns) {
   Outcome outcome;
   try {
     LSM::CatalogueReader reader(LSM::files::open_plain(path), lenient);
     require(reader.info().model == "lsm" || reader.info().model == "block-slider", "known model");
-    LSM::Event event;
+    columns = reader.info().columns;
+    LSM::EventRow event;
     while (reader.next(event)) {
-      for (const double x : {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end,
-                             event.slip_moment, event.x_centroid, event.rupture_length,
-                             event.x_hypocentre, event.x_begin, event.mean_slip, event.stress_drop,
-                             event.peak_slip, event.friction_work, event.friction_total})
-        require(std::isfinite(x), "finite numbers");
+      for (const LSM::CatalogueColumn &column : LSM::columns_of(reader.info()))
+        require(std::isfinite(column.of(event)), "finite numbers");
       require(event.t_start <= event.t_end, "an event ends after its start");
       require(event.step_start <= event.step_end, "an event ends after its first step");
       if (!events.empty()) {
@@ -118,9 +109,11 @@ Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::E
 }
 
 void try_catalogue(const std::string &path) {
-  std::vector<LSM::Event> strict, lenient;
-  const Outcome a = read_catalogue(path, false, strict);
-  const Outcome b = read_catalogue(path, true, lenient);
+  std::vector<LSM::EventRow> strict, lenient;
+  LSM::CatalogueInfo info;
+  info.model = "lsm";
+  const Outcome a = read_catalogue(path, false, strict, info.columns);
+  const Outcome b = read_catalogue(path, true, lenient, info.columns);
   require(a.repairs == 0, "strict repairs nothing");
   require(!b.refused || a.refused, "lenient accepts what strict accepts");
   if (!a.refused) {
@@ -135,17 +128,12 @@ void try_catalogue(const std::string &path) {
   if (a.refused) return;
   // What has been read can be written and read back.
   const std::string copy = (folder().path / "copy").string();
-  LSM::CatalogueInfo info;
-  info.model = "lsm";
-  info.slip_moment = info.x_centroid = info.rupture_length = true;
-  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = info.peak_slip = true;
-  info.plane = true;
   LSM::CatalogueWriter writer;
   writer.create(copy, info);
-  for (const LSM::Event &event : strict) writer.write(event);
+  for (const LSM::EventRow &event : strict) writer.write(event);
   writer.close();
-  std::vector<LSM::Event> again;
-  require(!read_catalogue(copy, false, again).refused && again.size() == strict.size(),
+  std::vector<LSM::EventRow> again;
+  require(!read_catalogue(copy, false, again, info.columns).refused && again.size() == strict.size(),
           "a copy can be read");
   for (std::size_t i = 0; i < strict.size(); ++i) require(same(strict[i], again[i]), "a true copy");
 }
@@ -266,14 +254,13 @@ std::vector<std::string> seeds() {
   for (const auto &[columns, plane] : {std::pair{false, false}, {true, false}, {true, true}}) {
     LSM::CatalogueInfo info;
     info.model = columns ? "lsm" : "block-slider";
-    info.plane = plane;
     info.parameters = {{"dt", "0.03"}, {"length", "120"}, {"picker", "exponential"}};
-    info.slip_moment = info.x_centroid = info.rupture_length = columns;
-    info.x_begin = info.stress_drop = info.peak_slip = columns;
+    if (columns) LSM::add_names(info.columns, LSM::columns_of_ruptures);
+    if (plane) LSM::add_names(info.columns, LSM::columns_of_planes);
     LSM::CatalogueWriter writer;
     writer.create(path, info);
     for (int i = 0; i < 8; ++i) {
-      LSM::Event event;
+      LSM::PlaneRupture event;
       event.id = i + 1;
       event.step_start = 100 * i;
       event.step_end = event.step_start + 10 * (i % 4);

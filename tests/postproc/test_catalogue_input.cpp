@@ -113,15 +113,15 @@ TEST_F(CatalogueInput, EventsTakeNoMoreMemoryThanTheirUse) {
   EXPECT_TRUE(table.details.empty());
 
   options.details = 30;
-  const std::vector<Event> largest = load_catalogue(name, options).details;
+  const std::vector<EventRow> largest = load_catalogue(name, options).details;
   ASSERT_EQ(largest.size(), 30u);
-  for (const Event &event : largest) {
+  for (const EventRow &event : largest) {
     EXPECT_GT(event.size, 970.0);
     EXPECT_EQ(event.t_start, 2.0 * static_cast<double>(event.id));
     EXPECT_EQ(event.step_end, 10 * (2 * event.id + 1));
   }
   EXPECT_TRUE(std::is_sorted(largest.begin(), largest.end(),
-                             [](const Event &a, const Event &b) { return a.t_start < b.t_start; }));
+                             [](const EventRow &a, const EventRow &b) { return a.t_start < b.t_start; }));
   options.details = CatalogueOptions::all_events;
   EXPECT_EQ(load_catalogue(name, options).details.size(), 1000u);
 }

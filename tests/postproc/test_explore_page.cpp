@@ -105,7 +105,7 @@ EventTable power_law(std::int64_t n, const std::string &note = "") {
   for (std::int64_t i = 0; i < n; ++i) {
     const double u = (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
     time += -10.0 * std::log((static_cast<double>(random() >> 11) + 0.5) * 0x1p-53);
-    Event event;
+    EventRow event;
     event.id = i + 1;
     event.size = 1e-5 * std::pow(1e5, u);
     event.t_start = time;

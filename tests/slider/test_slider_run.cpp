@@ -78,7 +78,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   o.series = testing::TempDir() + "slider_sizes.pe";
   o.x_centroid = o.rupture_length = true;
   const RunResult r = run(o);
-  const unit::Catalogue c = unit::read_catalogue(o.catalogue);
+  const auto c = unit::read_catalogue<LSM::Drop>(o.catalogue);
   const std::vector<double> pe = pe_of(o.series);
   ASSERT_EQ(pe.size(), 400001U);
   EXPECT_NEAR(pe.back(), r.pe_direct, 1e-9 * r.pe_direct);
@@ -109,7 +109,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   ASSERT_EQ(r.events, static_cast<std::int64_t>(drops.size()));
   double slip = 0.0, largest = 0.0, longest = 0.0;
   for (std::size_t k = 0; k < drops.size(); ++k) {
-    const LSM::Event &e = c.events[k];
+    const LSM::Drop &e = c.events[k];
     ASSERT_EQ(static_cast<std::size_t>(e.step_start), drops[k].start) << k;
     ASSERT_EQ(static_cast<std::size_t>(e.step_end), drops[k].end) << k;
     EXPECT_EQ(e.pe_start, pe[drops[k].start]);
@@ -149,10 +149,10 @@ TEST(SliderRun, DropsByThePlateAreCountedAndLeftOut) {
   EXPECT_EQ(slips.steps, all.steps);
   EXPECT_EQ(slips.pe, all.pe);
   const double strongest = *std::max_element(o.mu.begin(), o.mu.end());
-  const unit::Catalogue kept = unit::read_catalogue(o.catalogue);
-  const unit::Catalogue both = unit::read_catalogue(testing::TempDir() + "slider_all_drops.csv");
+  const auto kept = unit::read_catalogue<LSM::Drop>(o.catalogue);
+  const auto both = unit::read_catalogue<LSM::Drop>(testing::TempDir() + "slider_all_drops.csv");
   std::size_t k = 0;
-  for (const LSM::Event &e : both.events) {
+  for (const LSM::Drop &e : both.events) {
     if (e.size > strongest * e.slip_moment) continue;
     ASSERT_LT(k, kept.events.size());
     EXPECT_EQ(kept.events[k].step_start, e.step_start);
@@ -183,7 +183,7 @@ TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {
     o.parameters.scheme = scheme;
     o.catalogue = testing::TempDir() + "slider_first.csv";
     run(o);
-    const unit::Catalogue found = unit::read_catalogue(o.catalogue);
+    const auto found = unit::read_catalogue(o.catalogue);
     ASSERT_GE(found.events.size(), 1U) << to_string(scheme);
     EXPECT_NEAR(found.events[0].t_start, expected.t_start, 0.03) << to_string(scheme);
     EXPECT_NEAR(found.events[0].size / expected.size, 1.0, 0.05) << to_string(scheme);

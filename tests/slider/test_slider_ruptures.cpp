@@ -72,7 +72,7 @@ TEST(Ruptures, TwoApart) {
   EXPECT_EQ(second.slip, 4.0);
   EXPECT_EQ(second.pe_start, 0.0);
   EXPECT_EQ(second.pe_end, -3.0);
-  const LSM::Event e = f.tracker.event(first, 0.25);
+  const LSM::Rupture e = f.tracker.event(first, 0.25);
   EXPECT_EQ(e.t_start, 0.0);
   EXPECT_EQ(e.t_end, 0.5);
   EXPECT_EQ(e.size, 2.0);
@@ -360,22 +360,22 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
   // step late, while ruptures are exact to the step.
   RunOptions o = options("pe", Events::pe);
   run(o);
-  const unit::Catalogue drops = unit::read_catalogue(o.catalogue);
+  const auto drops = unit::read_catalogue<LSM::Drop>(o.catalogue);
   o = options("ruptures", Events::ruptures);
   o.series = testing::TempDir() + "slider_ruptures.pe";
   o.series_stride = 1;
   run(o);
-  const unit::Catalogue ruptures = unit::read_catalogue(o.catalogue);
+  const auto ruptures = unit::read_catalogue<LSM::Rupture>(o.catalogue);
   ASSERT_TRUE(ruptures.info.overlapping());
   ASSERT_FALSE(drops.info.overlapping());
   std::size_t large = 0, overlaps = 0;
   double last_end = 0.0;
-  for (const LSM::Event &r : ruptures.events) last_end = std::max(last_end, r.t_end);
-  for (const LSM::Event &drop : drops.events) {
+  for (const LSM::Rupture &r : ruptures.events) last_end = std::max(last_end, r.t_end);
+  for (const LSM::Drop &drop : drops.events) {
     if (drop.size < 10.0 || drop.t_start < 13000.0 || drop.t_end > last_end - 5000.0) continue;
     ++large;
     double within = 0.0, touching = 0.0, largest = 0.0;
-    for (const LSM::Event &r : ruptures.events) {
+    for (const LSM::Rupture &r : ruptures.events) {
       if (r.step_start > drop.step_end + 1 || r.step_end < drop.step_start) continue;
       touching += r.slip_moment;
       if (r.step_start > drop.step_start && r.step_end <= drop.step_end) within += r.slip_moment;
@@ -391,7 +391,7 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
   const std::vector<double> pe = pe_of(o.series);
   ASSERT_EQ(pe.size(), 1000001U);
   for (std::size_t k = 0; k < ruptures.events.size(); ++k) {
-    const LSM::Event &r = ruptures.events[k];
+    const LSM::Rupture &r = ruptures.events[k];
     ASSERT_EQ(r.pe_start, pe[static_cast<std::size_t>(r.step_start)]);
     ASSERT_EQ(r.pe_end, pe[static_cast<std::size_t>(r.step_end)]);
     ASSERT_GT(r.size, 0.0);
@@ -413,7 +413,7 @@ TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
   o.rupture_memory = 8;
   run(o);
   const std::string whole = text(o.catalogue);
-  const unit::Catalogue catalogue = unit::read_catalogue(o.catalogue);
+  const auto catalogue = unit::read_catalogue(o.catalogue);
   ASSERT_GT(catalogue.events.size(), 200U);
   o.checkpoint = testing::TempDir() + "slider_resume.chk";
   for (std::size_t k = 50; k < 200; k += 50) {

@@ -102,8 +102,8 @@ struct Crack {
   }
 
   /// Writes its history, and returns its ruptures.
-  std::vector<LSM::Event> record(const std::string &history) const {
-    std::vector<LSM::Event> events;
+  std::vector<LSM::PlaneRupture> record(const std::string &history) const {
+    std::vector<LSM::PlaneRupture> events;
     LSM::RuptureFinder finder(grid, settings());
     LSM::SlipHistoryInfo info;
     info.grid = grid;
@@ -118,7 +118,8 @@ struct Crack {
     for (std::int64_t n = 1; n <= intervals(); ++n) {
       const LSM::FaultRow now = row(n);
       const std::int64_t step = grid.step0 + n * grid.interval;
-      finder.add(grid.time(step), 0.0, now, [&](const LSM::Event &e) { events.push_back(e); });
+      finder.add(grid.time(step), 0.0, now,
+                 [&](const LSM::FaultRupture &r) { events.push_back(finder.plane_rupture(r)); });
       writer.add(step, 0.0, now, finder.active());
     }
     writer.close();

@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "events/event_picker.h"
+#include "files/event.h"
 #include "files/slip_history.h"
 
 namespace unit {
 
 struct SlowRuptures {
-  std::vector<LSM::Event> events;  ///< those known to have ended, without identifiers
+  std::vector<LSM::Rupture> events;  ///< those known to have ended, without identifiers
   std::vector<std::set<std::pair<std::int64_t, int>>> cells;  ///< (interval, bin) of each
   double slip_in_ruptures = 0.0;  ///< sum over bins and intervals, of all ruptures
   double slip_elsewhere = 0.0;
@@ -77,7 +77,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
     if (end + info.ruptures.memory > last) continue;  // still open
 
     std::set<int> rows;
-    LSM::Event e;
+    LSM::Rupture e;
     std::map<int, double> of_bins;
     double slip = 0.0, c = 0.0, s = 0.0, most = 0.0;
     int where = 0;
@@ -135,7 +135,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
   std::vector<std::size_t> order(out.events.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&out](std::size_t a, std::size_t b) {
-    const LSM::Event &x = out.events[a], &y = out.events[b];
+    const LSM::Rupture &x = out.events[a], &y = out.events[b];
     const int u = out.cells[a].begin()->second, v = out.cells[b].begin()->second;
     return std::tie(x.step_end, x.step_start, u) < std::tie(y.step_end, y.step_start, v);
   });

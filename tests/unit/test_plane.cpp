@@ -18,9 +18,10 @@
 
 namespace {
 
-using LSM::Event;
 using LSM::FaultGrid;
 using LSM::FaultRow;
+using LSM::FaultRupture;
+using LSM::PlaneRupture;
 using LSM::RuptureFinder;
 using LSM::RuptureSettings;
 using unit::contains;
@@ -113,10 +114,10 @@ struct Slip {
 
 /// Work is a tenth of the size of the slip; the stress along strike of each cell after interval n
 /// is 2 - n / 16, that along dip n / 8; PE is -n.
-std::vector<Event> find(const std::vector<Slip> &slips, std::int64_t intervals,
-                        const FaultGrid &grid, const RuptureSettings &settings,
-                        bool restarts = false) {
-  std::vector<Event> events;
+std::vector<PlaneRupture> find(const std::vector<Slip> &slips, std::int64_t intervals,
+                               const FaultGrid &grid, const RuptureSettings &settings,
+                               bool restarts = false) {
+  std::vector<PlaneRupture> events;
   RuptureFinder finder(grid, settings);
   for (std::int64_t n = 0; n <= intervals + settings.memory + 1; ++n) {
     FaultRow row(grid);
@@ -136,7 +137,8 @@ std::vector<Event> find(const std::vector<Slip> &slips, std::int64_t intervals,
     if (n == 0)
       finder.begin(grid.time(step), pe, row);
     else
-      finder.add(grid.time(step), pe, row, [&events](const Event &e) { events.push_back(e); });
+      finder.add(grid.time(step), pe, row,
+                 [&](const FaultRupture &r) { events.push_back(finder.plane_rupture(r)); });
     if (!restarts || n == 0) continue;
     const std::vector<double> state = finder.state();
     finder = RuptureFinder(grid, settings);
@@ -148,13 +150,13 @@ std::vector<Event> find(const std::vector<Slip> &slips, std::int64_t intervals,
 
 // Cells (5, 1), (5, 2), (0, 2) of a ring of 6 bins and 4 rows with ends.
 TEST(Plane, ARuptureWithAllItsNumbers) {
-  const std::vector<Event> events = find({{2, 5, 1, 0.375, 0.5},
-                                          {3, 5, 2, 0.25, 0.0},
-                                          {3, 5, 1, 0.0, 0.125},
-                                          {4, 0, 2, 0.125, -0.125}},
-                                         4, some_plane(6, 4), some_settings());
+  const std::vector<PlaneRupture> events = find({{2, 5, 1, 0.375, 0.5},
+                                                 {3, 5, 2, 0.25, 0.0},
+                                                 {3, 5, 1, 0.0, 0.125},
+                                                 {4, 0, 2, 0.125, -0.125}},
+                                                4, some_plane(6, 4), some_settings());
   ASSERT_EQ(events.size(), 1u);
-  const Event &e = events[0];
+  const PlaneRupture &e = events[0];
   EXPECT_EQ(e.step_start, 1004);
   EXPECT_EQ(e.step_end, 1016);
   EXPECT_EQ(e.t_start, 51.0);
@@ -278,7 +280,7 @@ TEST(Plane, RandomPatternsAgreeWithASearch) {
             if (wanted.size() > 2) ++several;
             for (const bool restarts : {false, true}) {
               std::vector<Numbers> found;
-              for (const Event &e : find(slips, 12, grid, settings, restarts)) {
+              for (const PlaneRupture &e : find(slips, 12, grid, settings, restarts)) {
                 found.emplace_back((e.step_start - 1000) / 4, (e.step_end - 1000) / 4,
                                    e.rupture_area / 3.0, e.moment_strike / 1.5, e.moment_dip / 1.5,
                                    e.rupture_length / 2.0, e.rupture_width / 1.5);
@@ -297,7 +299,7 @@ TEST(Plane, StatesOfAnotherPlaneAreRefused) {
   FaultRow row(some_plane(6, 4));
   finder.begin(0.0, 0.0, row);
   row.slip[5] = 1.0F;
-  finder.add(0.0, 0.0, row, [](const Event &) {});
+  finder.add(0.0, 0.0, row, [](const FaultRupture &) {});
   const std::vector<double> state = finder.state();
   RuptureFinder other(some_plane(6, 5), some_settings());
   EXPECT_THROW(other.set_state(state), std::invalid_argument);
@@ -322,9 +324,9 @@ class PlaneFiles : public unit::Files {
 TEST_F(PlaneFiles, AnEllipticCrack) {
   for (const double cell : {0.5, 0.25}) {
     const unit::Crack crack(cell);
-    const std::vector<Event> events = crack.record(file());
+    const std::vector<PlaneRupture> events = crack.record(file());
     ASSERT_EQ(events.size(), 1u);
-    const Event &e = events[0];
+    const PlaneRupture &e = events[0];
     EXPECT_NEAR(e.rupture_area, crack.area(), 0.04 * cell * crack.area());
     int reached = 0;
     for (int k = 0; k < crack.grid.cells(); ++k) reached += crack.reached(k) < crack.until;

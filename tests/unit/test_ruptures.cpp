@@ -12,9 +12,10 @@
 
 namespace {
 
-using LSM::Event;
 using LSM::FaultGrid;
 using LSM::FaultRow;
+using LSM::FaultRupture;
+using LSM::Rupture;
 using LSM::RuptureFinder;
 using LSM::RuptureSettings;
 using unit::some_grid;
@@ -37,9 +38,9 @@ FaultRow row_of(const std::string &line, int n) {
 
 /// Finds the ruptures of a pattern.
 /// \param restarts whether to restore the finder from its state after each interval
-std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSettings &settings,
-                        bool restarts = false) {
-  std::vector<Event> events;
+std::vector<Rupture> find(Pattern pattern, const FaultGrid &grid, const RuptureSettings &settings,
+                          bool restarts = false) {
+  std::vector<Rupture> events;
   RuptureFinder finder(grid, settings);
   const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
   finder.begin(grid.time(grid.step0), 0.0, row_of(quiet, 0));
@@ -48,7 +49,7 @@ std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSet
   for (const std::string &line : pattern) {
     ++n;
     finder.add(grid.time(grid.step0 + n * grid.interval), -n, row_of(line, n),
-               [&events](const Event &e) { events.push_back(e); });
+               [&](const FaultRupture &r) { events.push_back(finder.rupture(r)); });
     if (!restarts) continue;
     const std::vector<double> state = finder.state();
     finder = RuptureFinder(grid, settings);
@@ -80,13 +81,13 @@ std::vector<LSM::SlipRecord> records_of(Pattern pattern, const FaultGrid &grid,
 constexpr double rounding = 1e-7;  // relative error of floats
 
 TEST(FaultRuptures, OneWithAllItsNumbers) {
-  const std::vector<Event> events = find({"..........",  //
-                                          "..12......",  //
-                                          ".231......",  //
-                                          ".1........"},
-                                         some_grid(), some_settings());
+  const std::vector<Rupture> events = find({"..........",  //
+                                            "..12......",  //
+                                            ".231......",  //
+                                            ".1........"},
+                                           some_grid(), some_settings());
   ASSERT_EQ(events.size(), 1U);
-  const Event &e = events[0];
+  const Rupture &e = events[0];
   EXPECT_EQ(e.step_start, 1004);
   EXPECT_EQ(e.step_end, 1016);
   EXPECT_EQ(e.t_start, 51.0);
@@ -107,10 +108,10 @@ TEST(FaultRuptures, OneWithAllItsNumbers) {
 }
 
 TEST(FaultRuptures, AcrossTheSeam) {
-  const std::vector<Event> events = find({"1.........",  //
-                                          "2........2",  //
-                                          "........3."},
-                                         some_grid(), some_settings());
+  const std::vector<Rupture> events = find({"1.........",  //
+                                            "2........2",  //
+                                            "........3."},
+                                           some_grid(), some_settings());
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].rupture_length, 6.0);
   EXPECT_EQ(events[0].x_begin, 11.0);
@@ -122,7 +123,7 @@ TEST(FaultRuptures, AcrossTheSeam) {
 TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
   RuptureSettings settings = some_settings();
   settings.velocity = 0.015;
-  const std::vector<Event> events = find({"11211....."}, some_grid(), settings);
+  const std::vector<Rupture> events = find({"11211....."}, some_grid(), settings);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].rupture_length, 2.0);
   EXPECT_NEAR(events[0].slip_moment, 0.5 * 0.02 * 2.0, rounding);
@@ -133,10 +134,10 @@ TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
   FaultRow row(grid.bins);
   finder.begin(0.0, 0.0, row);
   row.slip[3] = 0.25F;
-  finder.add(0.0, 0.0, row, [](const Event &) {});
+  finder.add(0.0, 0.0, row, [](const FaultRupture &) {});
   EXPECT_FALSE(finder.active());
   row.slip[3] = std::nextafter(0.25F, 1.0F);
-  finder.add(0.0, 0.0, row, [](const Event &) {});
+  finder.add(0.0, 0.0, row, [](const FaultRupture &) {});
   EXPECT_TRUE(finder.active());
 }
 
@@ -147,8 +148,8 @@ TEST(FaultRuptures, BackwardSlipCountsAndIsTakenOff) {
   finder.begin(0.0, 0.0, row);
   row.slip[4] = 0.5F;
   row.slip[5] = -0.25F;
-  std::vector<Event> events;
-  const auto keep = [&events](const Event &e) { events.push_back(e); };
+  std::vector<Rupture> events;
+  const auto keep = [&](const FaultRupture &r) { events.push_back(finder.rupture(r)); };
   finder.add(0.0, 0.0, row, keep);
   finder.add(0.0, 0.0, FaultRow(grid.bins), keep);
   ASSERT_EQ(events.size(), 1U);
@@ -160,7 +161,7 @@ TEST(FaultRuptures, BackwardSlipCountsAndIsTakenOff) {
 TEST(FaultRuptures, GapsAndMemoryConnect) {
   const Pattern hole = {"1..1......"};
   EXPECT_EQ(find(hole, some_grid(), some_settings(1)).size(), 2U);
-  const std::vector<Event> bridged = find(hole, some_grid(), some_settings(2));
+  const std::vector<Rupture> bridged = find(hole, some_grid(), some_settings(2));
   ASSERT_EQ(bridged.size(), 1U);
   EXPECT_EQ(bridged[0].rupture_length, 8.0);
   EXPECT_NEAR(bridged[0].mean_slip, 0.02 / 4.0, rounding);
@@ -170,11 +171,11 @@ TEST(FaultRuptures, GapsAndMemoryConnect) {
   EXPECT_EQ(find(pause, some_grid(), some_settings(0, 2)).size(), 1U);
 
   // The gap across the seam counts, too: ends no farther apart than a gap close the ring.
-  const std::vector<Event> seam = find({"1.......1."}, some_grid(), some_settings(1));
+  const std::vector<Rupture> seam = find({"1.......1."}, some_grid(), some_settings(1));
   ASSERT_EQ(seam.size(), 1U);
   EXPECT_EQ(seam[0].x_begin, 11.0);
   EXPECT_EQ(seam[0].rupture_length, 6.0);
-  const std::vector<Event> round = find({"1.1.1.1.1."}, some_grid(), some_settings(1));
+  const std::vector<Rupture> round = find({"1.1.1.1.1."}, some_grid(), some_settings(1));
   ASSERT_EQ(round.size(), 1U);
   EXPECT_EQ(round[0].rupture_length, 20.0);
 }
@@ -201,14 +202,14 @@ TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
                 unit::slow_ruptures(info, records_of(pattern, grid, memory));
             if (slow.events.size() > 2) ++several;
             double moment = 0.0;
-            for (const Event &e : slow.events) moment += e.slip_moment;
+            for (const Rupture &e : slow.events) moment += e.slip_moment;
             ASSERT_NEAR(moment, settings.modulus * grid.width * slow.slip_in_ruptures, 1e-9);
             ASSERT_EQ(slow.slip_elsewhere, 0.0);
             for (const bool restarts : {false, true}) {
-              const std::vector<Event> found = find(pattern, grid, settings, restarts);
+              const std::vector<Rupture> found = find(pattern, grid, settings, restarts);
               ASSERT_EQ(found.size(), slow.events.size());
               for (std::size_t k = 0; k < found.size(); ++k) {
-                const Event &a = found[k], &b = slow.events[k];
+                const Rupture &a = found[k], &b = slow.events[k];
                 ASSERT_EQ(a.step_start, b.step_start);
                 ASSERT_EQ(a.step_end, b.step_end);
                 ASSERT_EQ(a.t_end, b.t_end);
@@ -237,19 +238,19 @@ TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
 TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
   // The two ruptures of the first interval meet later; the one that slipped more has the
   // hypocentre.
-  const std::vector<Event> events = find({"3...5.....",  //
-                                          "91.19.....",  //
-                                          ".111......"},
-                                         some_grid(), some_settings());
+  const std::vector<Rupture> events = find({"3...5.....",  //
+                                            "91.19.....",  //
+                                            ".111......"},
+                                           some_grid(), some_settings());
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].x_hypocentre, 4.0);
   EXPECT_EQ(events[0].rupture_length, 10.0);
 
   // A later rupture does not get the hypocentre, however much it slips in its first interval.
-  const std::vector<Event> later = find({"..1.......",  //
-                                         "..1..9....",  //
-                                         "..1111...."},
-                                        some_grid(), some_settings());
+  const std::vector<Rupture> later = find({"..1.......",  //
+                                           "..1..9....",  //
+                                           "..1111...."},
+                                          some_grid(), some_settings());
   ASSERT_EQ(later.size(), 1U);
   EXPECT_EQ(later[0].x_hypocentre, 0.0);
 }
@@ -259,7 +260,7 @@ TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
   EXPECT_THROW(RuptureFinder(some_grid(), some_settings(0, 0)), std::invalid_argument);
   RuptureFinder finder(some_grid(), some_settings());
   finder.begin(0.0, 0.0, row_of("..........", 0));
-  finder.add(0.0, 0.0, row_of("12........", 1), [](const Event &) {});
+  finder.add(0.0, 0.0, row_of("12........", 1), [](const FaultRupture &) {});
   const std::vector<double> state = finder.state();
   RuptureFinder other(some_grid(9), some_settings());
   EXPECT_THROW(other.set_state(state), std::invalid_argument);

@@ -9,9 +9,9 @@
 namespace LAMMPS_NS {
 
 /// To be raised with every change of what a style writes.
-constexpr int LSM_RESTART_VERSION = 4;
+constexpr int LSM_RESTART_VERSION = 5;
 /// Of force styles in three dimensions, where links have a factor of their rest length.
-constexpr int LSM_RESTART_VERSION_3D = 5;
+constexpr int LSM_RESTART_VERSION_3D = 6;
 
 inline void lsm_check_version(Error *error, int found, int expected = LSM_RESTART_VERSION)
 {

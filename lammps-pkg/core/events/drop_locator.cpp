@@ -18,7 +18,7 @@ DropLocator::DropLocator(const FaultGrid &grid, double modulus, double fraction)
       end_(grid.step0),
       open_(static_cast<std::size_t>(grid.bins), 0.0) {}
 
-void DropLocator::add(const Event &drop, const Report &report) {
+void DropLocator::add(const Drop &drop, const Report &report) {
   waiting_.push_back({drop, open_});
   forget_open();
   if (drop.step_end > end_) return;
@@ -34,9 +34,9 @@ void DropLocator::add_interval(std::int64_t step, const FaultRow &row,
 }
 
 void DropLocator::finish(std::int64_t step, const FaultRow &row, const Report &report) {
-  for (Drop &drop : waiting_) {
-    add_part(drop.slip, drop.event.step_start, drop.event.step_end, step, row);
-    report(located(drop));
+  for (Waiting &one : waiting_) {
+    add_part(one.slip, one.drop.step_start, one.drop.step_end, step, row);
+    report(located(one));
   }
   waiting_.clear();
 }
@@ -53,17 +53,17 @@ void DropLocator::add_part(std::vector<double> &slip, std::int64_t from, std::in
   for (std::size_t b = 0; b < slip.size(); ++b) slip[b] += part * static_cast<double>(row.slip[b]);
 }
 
-Event DropLocator::located(const Drop &drop) const {
-  Event e = drop.event;
+Drop DropLocator::located(const Waiting &one) const {
+  Drop e = one.drop;
   double sum = 0.0, largest = 0.0, cosines = 0.0, sines = 0.0;
-  for (std::size_t b = 0; b < drop.slip.size(); ++b) {
-    const double slip = drop.slip[b], size = std::fabs(slip);
+  for (std::size_t b = 0; b < one.slip.size(); ++b) {
+    const double slip = one.slip[b], size = std::fabs(slip);
     sum += slip;
     largest = std::max(largest, size);
     cosines += size * centroid_.cosine(b);
     sines += size * centroid_.sine(b);
   }
-  const auto ruptured = std::count_if(drop.slip.begin(), drop.slip.end(), [&](double slip) {
+  const auto ruptured = std::count_if(one.slip.begin(), one.slip.end(), [&](double slip) {
     return std::fabs(slip) > fraction_ * largest;
   });
   e.slip_moment = modulus_ * sum * grid_.width;
@@ -86,7 +86,7 @@ void DropLocator::set_state(const std::vector<double> &saved) {
   visit(read, in);
   bool sane = in.left() == 0 && read.open_.size() == open_.size() &&
               (read.end_ - grid_.step0) % grid_.interval == 0;
-  for (const Drop &drop : read.waiting_) sane = sane && drop.slip.size() == open_.size();
+  for (const Waiting &one : read.waiting_) sane = sane && one.slip.size() == open_.size();
   if (!sane) throw std::invalid_argument("saved slip of drops is inconsistent");
   *this = std::move(read);
 }

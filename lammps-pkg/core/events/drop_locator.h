@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "events/event_picker.h"
-#include "events/fault_grid.h"
+#include "events/fault_sums.h"
+#include "files/event.h"
 
 namespace LSM {
 
@@ -24,13 +24,13 @@ namespace LSM {
 /// complete.
 class DropLocator {
  public:
-  using Report = std::function<void(const Event &)>;
+  using Report = std::function<void(const Drop &)>;
 
   /// \param fraction bins with at most this fraction of the largest slip did not rupture
   DropLocator(const FaultGrid &grid, double modulus, double fraction);
 
   /// Takes a drop that ended, in order of time.
-  void add(const Event &drop, const Report &report);
+  void add(const Drop &drop, const Report &report);
   /// Forgets the drop that was open: it ended and is not written.
   void forget_open() { std::fill(open_.begin(), open_.end(), 0.0); }
   /// Adds the interval that ends at a step.
@@ -41,8 +41,6 @@ class DropLocator {
   /// \param step, row what is known of that interval: its steps up to `step`
   void finish(std::int64_t step, const FaultRow &row, const Report &report);
 
-  /// Drops that have ended and are not reported yet.
-  std::int64_t waiting() const { return static_cast<std::int64_t>(waiting_.size()); }
   /// Step up to which drops that ended are reported.
   std::int64_t known_until() const { return end_; }
 
@@ -51,13 +49,13 @@ class DropLocator {
   void set_state(const std::vector<double> &saved);
 
  private:
-  struct Drop {
-    Event event;
+  struct Waiting {
+    Drop drop;
     std::vector<double> slip;  // of each bin
     template <class Self, class State>
     static void visit(Self &self, State &state) {
-      auto &e = self.event;
-      state(e.id, e.t_start, e.t_end, e.step_start, e.step_end, e.size, e.pe_start, e.pe_end);
+      auto &e = self.drop;
+      state(e.t_start, e.t_end, e.step_start, e.step_end, e.size, e.pe_start, e.pe_end);
       state(e.friction_work, e.friction_total);
       state.list(self.slip);
     }
@@ -74,14 +72,14 @@ class DropLocator {
   /// Adds the slip in that share.
   void add_part(std::vector<double> &slip, std::int64_t from, std::int64_t to, std::int64_t step,
                 const FaultRow &row) const;
-  Event located(const Drop &drop) const;
+  Drop located(const Waiting &one) const;
 
   FaultGrid grid_;
   MeanPlace centroid_;
   double modulus_, fraction_;
   std::int64_t end_;          // of the last complete interval
   std::vector<double> open_;  // slip of each bin in the open drop until then
-  std::vector<Drop> waiting_;
+  std::vector<Waiting> waiting_;
 };
 
 }  // namespace LSM

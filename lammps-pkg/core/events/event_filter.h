@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "events/event_picker.h"
+#include "files/event.h"
 
 namespace LSM {
 

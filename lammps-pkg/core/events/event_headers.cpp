@@ -62,8 +62,8 @@ CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene
     events.emplace_back("interval", std::to_string(settings.interval));
     events.emplace_back("modulus", number(settings.modulus));
   }
-  info.slip_moment = info.x_centroid = info.rupture_length = info.peak_slip = located;
-  info.friction = settings.finds_ruptures();
+  if (located) add_names(info.columns, slip_of_drops);
+  if (settings.finds_ruptures()) add_names(info.columns, friction_of_drops);
   info.parameters = parameters_of(settings, scene, events, settings.no_series ? "series" : "");
   return info;
 }
@@ -85,10 +85,8 @@ CatalogueInfo ruptures_header(const EventSettings &settings, const SceneInfo &sc
                        {"modulus", number(settings.modulus)}};
   if (grid.plane) events.emplace_back("slip_bin_dip", number(grid.height));
   info.parameters = parameters_of(settings, scene, events, settings.no_history ? "history" : "");
-  info.slip_moment = info.x_centroid = info.rupture_length = true;
-  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
-  info.peak_slip = true;
-  info.plane = grid.plane;
+  add_names(info.columns, columns_of_ruptures);
+  if (grid.plane) add_names(info.columns, columns_of_planes);
   return info;
 }
 

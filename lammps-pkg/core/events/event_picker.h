@@ -5,30 +5,15 @@
 #ifndef LSM_EVENT_PICKER_H
 #define LSM_EVENT_PICKER_H
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
-#include "files/names.h"
+#include "files/event.h"
 
 namespace LSM {
-
-/// Interpretations of the paper's formula for the average change of PE, called A here, with x =
-/// PE(t+1) - PE(t).
-enum class PickerReading {
-  exponential,  ///< A <- lambda A + (1 - lambda) x (default) †, memory 1/(1 - lambda) samples
-  average,      ///< A <- (x + lambda A) / (1 + lambda) †, memory of about two samples
-  literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
-};
-
-constexpr std::array<Named<PickerReading>, 3> names_of(PickerReading) {
-  return {{{PickerReading::exponential, "exponential"},
-           {PickerReading::average, "average"},
-           {PickerReading::literal, "literal"}}};
-}
 
 struct PickerSettings {
   PickerReading reading = PickerReading::exponential;
@@ -45,28 +30,6 @@ inline double lambda_from_memory_time(double memory_time, double dt) {
     throw std::invalid_argument("time between picker samples must be a positive number");
   return std::exp(-dt / memory_time);
 }
-
-/// When an event happened and how large it was, which is all that most statistics need.
-struct EventSummary {
-  double t_start = 0.0, t_end = 0.0;
-  double size = 0.0;  ///< pe_start - pe_end
-};
-
-/// One event. Times in model time, steps as pushed, energies in model energy.
-/// The picker fills all but the identifier, which EventFilter gives, and slip_moment and the
-/// members after it, which belong to the program that knows the slip.
-struct Event : EventSummary {
-  std::int64_t id = 0;  ///< 1, 2, ... over the events that are written
-  std::int64_t step_start = 0, step_end = 0;
-  double pe_start = 0.0, pe_end = 0.0;
-  double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
-  double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
-  double peak_slip = 0.0;
-  double friction_work = 0.0, friction_total = 0.0;  ///< of drops
-  /// Of ruptures on a plane.
-  double moment_strike = 0.0, moment_dip = 0.0, z_centroid = 0.0, rupture_width = 0.0,
-         rupture_area = 0.0, z_hypocentre = 0.0, z_begin = 0.0, peak_slip_rate = 0.0;
-};
 
 /// The whole state of a picker besides its settings. Plain old data without padding, so it can be
 /// copied byte by byte into a restart file of the same machine type.
@@ -99,7 +62,8 @@ class EventPicker {
   }
 
   /// Adds the sample PE(step) = pe. Returns true, and fills out, if an event ended at the sample
-  /// before this one; otherwise out is unchanged. Which events are written is up to EventFilter.
+  /// before this one; otherwise out is unchanged. EventFilter decides which events are written, and
+  /// gives them their numbers.
   /// Samples may be a decimated series; steps and times are reported as given.
   /// \throws std::invalid_argument (and drops the sample) if step or time do not advance or a
   /// number is not finite, e.g. because a simulation blew up.

@@ -11,7 +11,7 @@
 
 #include "events/event_filter.h"
 #include "events/event_picker.h"
-#include "events/fault_grid.h"
+#include "files/fault_grid.h"
 #include "files/parameters.h"
 
 namespace LSM {

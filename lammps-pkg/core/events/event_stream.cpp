@@ -23,7 +23,7 @@ bool SavedStream::read(const std::vector<double> &from, std::size_t at) {
 bool SavedStream::continues_with(const FaultGrid &other, bool finds_ruptures) const {
   return has_slip() && finder.empty() != finds_ruptures && grid.dt == other.dt &&
          grid.interval == other.interval && grid.bins == other.bins &&
-         open_sums.size() == other.fields() * static_cast<std::size_t>(other.cells());
+         open_sums.size() == fields_of(other) * static_cast<std::size_t>(other.cells());
 }
 
 FaultGrid SavedStream::continued(FaultGrid other) const {
@@ -99,7 +99,7 @@ void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_o
                block.friction.empty() ? 0.0 : block.friction[static_cast<std::size_t>(n)]);
     if (!records_slip() || !grid_.ends_interval(step)) continue;
     add_interval(step, time, pe, sums);
-    sums += grid_.fields() * static_cast<std::size_t>(grid_.cells());
+    sums += fields_of(grid_) * static_cast<std::size_t>(grid_.cells());
   }
 }
 
@@ -110,13 +110,13 @@ void EventStream::end_run(std::int64_t step, const std::vector<double> &open_sum
 
 void EventStream::write_rest(bool open_ruptures) {
   // After an error within a run the slip of the incomplete interval is not known.
-  const bool known = locator_ && !last_sums_.empty() && last_step_ >= locator_->known_until();
-  if (known && locator_->waiting() > 0)
+  const bool known = locator_ && !last_sums_.empty() && last_step_ > locator_->known_until();
+  if (known)
     locator_->finish(last_step_,
                      fault_row(grid_, last_sums_.data(), last_step_ - locator_->known_until()),
-                     [this](const Event &drop) { write_drop(drop); });
+                     [this](const Drop &drop) { write_drop(drop); });
   if (finder_ && open_ruptures)
-    finder_->each_open_as_ended([this](const Event &rupture) { write_rupture(rupture); });
+    finder_->each_open_as_ended([this](const FaultRupture &r) { write_rupture(r); });
 }
 
 void EventStream::change_picker(const PickerSettings &settings, double ratio) {
@@ -166,7 +166,7 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   if (resumes(catalogue))
     catalogue_.find_cut(catalogue, drops_info,
                         locator_ ? std::min(step - 1, locator_->known_until()) : step - 1,
-                        drops().events - (locator_ ? locator_->waiting() : 0));
+                        drops().events);
   if (resumes(ruptures))
     rupture_catalogue_.find_cut(ruptures, ruptures_info, finder_->known_until(),
                                 this->ruptures().events);
@@ -206,7 +206,7 @@ void EventStream::add_sample(std::int64_t step, double time, double pe, double f
   // A drop begins and ends at the sample before the one that shows it.
   const double until_now = friction_.total.value();
   friction_.total.add(friction);
-  Event drop;
+  Drop drop;
   const bool open = picker_.in_event(), ended = picker_.push(step, time, pe, drop);
   if (!open) friction_.at_start = until_now;
   if (!ended) return;
@@ -216,9 +216,8 @@ void EventStream::add_sample(std::int64_t step, double time, double pe, double f
     if (locator_) locator_->forget_open();
     return;
   }
-  drops_.number(drop);
   if (locator_)
-    locator_->add(drop, [this](const Event &located) { write_drop(located); });
+    locator_->add(drop, [this](const Drop &located) { write_drop(located); });
   else
     write_drop(drop);
 }
@@ -228,20 +227,27 @@ void EventStream::add_interval(std::int64_t step, double time, double pe, const 
   std::optional<std::int64_t> begun;
   if (picker_.in_event()) begun = picker_.state().step_start;
   if (locator_)
-    locator_->add_interval(step, row, begun, [this](const Event &drop) { write_drop(drop); });
+    locator_->add_interval(step, row, begun, [this](const Drop &drop) { write_drop(drop); });
   if (!finder_) return;
-  finder_->add(time, pe, row, [this](const Event &rupture) { write_rupture(rupture); });
+  finder_->add(time, pe, row, [this](const FaultRupture &r) { write_rupture(r); });
   if (history_.is_open()) history_.add(step, pe, row, finder_->active());
 }
 
-void EventStream::write_drop(const Event &drop) {
+void EventStream::write_drop(Drop drop) {
+  drops_.number(drop);
   if (catalogue_.is_open()) catalogue_.write(drop);
 }
 
-void EventStream::write_rupture(Event rupture) {
-  if (!ruptures_.passes(rupture)) return;
-  ruptures_.number(rupture);
-  if (rupture_catalogue_.is_open()) rupture_catalogue_.write(rupture);
+void EventStream::write_rupture(const FaultRupture &found) {
+  const auto write = [this](auto rupture) {
+    if (!ruptures_.passes(rupture)) return;
+    ruptures_.number(rupture);
+    if (rupture_catalogue_.is_open()) rupture_catalogue_.write(rupture);
+  };
+  if (grid_.plane)
+    write(finder_->plane_rupture(found));
+  else
+    write(finder_->rupture(found));
 }
 
 }  // namespace LSM

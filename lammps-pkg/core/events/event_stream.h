@@ -125,7 +125,7 @@ class EventStream {
   void leave_out_jump(double jump) { picker_.leave_out_jump(jump); }
 
   const EventPicker &picker() const { return picker_; }
-  /// Counts of drops of PE, including those that are not written yet, and of ruptures.
+  /// Counts of drops of PE and of ruptures that are written.
   const FilterCounts &drops() const { return drops_.counts(); }
   const FilterCounts &ruptures() const { return ruptures_.counts(); }
   /// Ruptures that have begun and not ended.
@@ -142,8 +142,8 @@ class EventStream {
   void add_sample(std::int64_t step, double time, double pe, double friction);
   void add_interval(std::int64_t step, double time, double pe, const double *sums);
 
-  void write_drop(const Event &drop);
-  void write_rupture(Event rupture);
+  void write_drop(Drop drop);
+  void write_rupture(const FaultRupture &rupture);
 
   EventSettings settings_;
   EventPicker picker_;

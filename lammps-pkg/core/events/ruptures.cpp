@@ -100,7 +100,7 @@ void RuptureFinder::add(double time, double pe, const FaultRow &row, const Repor
         }
         if (r.step_end == n - 1) note_stress_after(r, row.stress);
       },
-      [&](const FaultRupture &r) { report(event(r)); });
+      report);
   forget();
   before_ = row.stress;
   time_ = time;
@@ -113,7 +113,7 @@ void RuptureFinder::each_open_as_ended(const Report &report) const {
   std::sort(all.begin(), all.end());
   for (FaultRupture &r : all) {
     if (r.step_end == sets_.step()) note_stress_after(r, before_);
-    report(event(r));
+    report(r);
   }
 }
 
@@ -178,8 +178,8 @@ void RuptureFinder::forget() {
                    snapshots_.end());
 }
 
-Event RuptureFinder::event(const FaultRupture &r) const {
-  Event e;
+Rupture RuptureFinder::rupture(const FaultRupture &r) const {
+  Rupture e;
   e.step_start = grid_.step0 + r.step_start * grid_.interval;
   e.step_end = grid_.step0 + r.step_end * grid_.interval;
   e.t_start = r.t_start;
@@ -196,11 +196,11 @@ Event RuptureFinder::event(const FaultRupture &r) const {
   for (const BinSlip &place : r.places)
     e.peak_slip = std::max(e.peak_slip, FaultVector{place.slip, place.dip}.size());
   e.stress_drop = mean(snapshot(r.step_start), r).strike - r.stress_after;
-  if (grid_.plane) describe_patch(e, r);
   return e;
 }
 
-void RuptureFinder::describe_patch(Event &e, const FaultRupture &r) const {
+PlaneRupture RuptureFinder::plane_rupture(const FaultRupture &r) const {
+  PlaneRupture e{rupture(r)};
   const FaultAxis dip = grid_.dip();
   const FaultVector slip = {r.slip, r.slip_dip};
   const auto cells = static_cast<double>(r.places.size());
@@ -219,6 +219,7 @@ void RuptureFinder::describe_patch(Event &e, const FaultRupture &r) const {
                                        (before.dip - r.stress_after_dip) * slip.dip) /
                                           slip.size()
                                     : 0.0;
+  return e;
 }
 
 }  // namespace LSM

@@ -19,9 +19,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "events/event_picker.h"
-#include "events/fault_grid.h"
+#include "events/fault_sums.h"
 #include "events/slip_sets.h"
+#include "files/event.h"
 
 namespace LSM {
 
@@ -81,11 +81,11 @@ struct FaultMoment {
   std::vector<float> stress;  ///< as FaultRow::stress
 };
 
-/// Connects slips of a fault to ruptures. Call begin(), then add() for each interval. Events have
-/// no number and are reported in order of their ends.
+/// Connects slips of a fault to ruptures. Call begin(), then add() for each interval. Ruptures are
+/// reported in order of their ends; while one is, rupture() or plane_rupture() describe it.
 class RuptureFinder {
  public:
-  using Report = std::function<void(const Event &)>;
+  using Report = std::function<void(const FaultRupture &)>;
 
   /// \throws std::invalid_argument for settings out of range
   RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings);
@@ -96,6 +96,10 @@ class RuptureFinder {
   void add(double time, double pe, const FaultRow &row, const Report &report);
   /// Reports open ruptures as if they ended now.
   void each_open_as_ended(const Report &report) const;
+
+  /// A rupture, of a line or of a plane, as an event without number.
+  Rupture rupture(const FaultRupture &r) const;
+  PlaneRupture plane_rupture(const FaultRupture &r) const;
 
   /// Whether something slipped in the last interval, or a rupture was open when it began, so that
   /// the slip history gives it a record of its own.
@@ -153,10 +157,6 @@ class RuptureFinder {
 
   /// Drops the snapshots that no open rupture needs.
   void forget();
-
-  Event event(const FaultRupture &r) const;
-  /// Fills the members that ruptures on a plane have in another way or besides.
-  void describe_patch(Event &e, const FaultRupture &r) const;
 
   FaultGrid grid_;
   RuptureSettings settings_;

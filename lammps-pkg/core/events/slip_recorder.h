@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "events/fault_grid.h"
+#include "events/fault_sums.h"
 
 namespace LSM {
 
@@ -43,11 +43,11 @@ class SlipRecorder {
   void begin(const FaultGrid &grid, double forward) {
     grid_ = grid;
     forward_ = forward;
-    sums_.assign(grid.fields() * static_cast<std::size_t>(grid.cells()), 0.0);
+    sums_.assign(fields_of(grid) * static_cast<std::size_t>(grid.cells()), 0.0);
   }
 
   const FaultGrid &grid() const { return grid_; }
-  /// The sums of the incomplete interval, FaultGrid::fields() of each cell.
+  /// The sums of the incomplete interval, fields_of(grid) of each cell.
   std::vector<double> &sums() { return sums_; }
   void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
 
@@ -81,7 +81,7 @@ class SlipRecorder {
   double *at(double x, double z) {
     const int bin = grid_.strike().bin(x);
     const int cell = grid_.plane ? bin * grid_.rows + grid_.dip().bin(z) : bin;
-    return &sums_[grid_.fields() * static_cast<std::size_t>(cell)];
+    return &sums_[fields_of(grid_) * static_cast<std::size_t>(cell)];
   }
   void add_force(double *sums, const FaultContact &c) const {
     sums[FORCE] += c.share * (forward_ * c.force);

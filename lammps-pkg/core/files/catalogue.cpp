@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -18,34 +19,28 @@ namespace {
 
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 
-/// Columns are written in this order.
-constexpr CatalogueColumn all_columns[] = {
-    {"event_id", nullptr, &Event::id},
-    {"t_start", &Event::t_start},
-    {"t_end", &Event::t_end},
-    {"step_start", nullptr, &Event::step_start},
-    {"step_end", nullptr, &Event::step_end},
-    {"size", &Event::size},
-    {"pe_start", &Event::pe_start},
-    {"pe_end", &Event::pe_end},
-    {"slip_moment", &Event::slip_moment, nullptr, &CatalogueInfo::slip_moment},
-    {"x_centroid", &Event::x_centroid, nullptr, &CatalogueInfo::x_centroid},
-    {"rupture_length", &Event::rupture_length, nullptr, &CatalogueInfo::rupture_length},
-    {"x_hypocentre", &Event::x_hypocentre, nullptr, &CatalogueInfo::x_hypocentre},
-    {"x_begin", &Event::x_begin, nullptr, &CatalogueInfo::x_begin},
-    {"mean_slip", &Event::mean_slip, nullptr, &CatalogueInfo::mean_slip},
-    {"stress_drop", &Event::stress_drop, nullptr, &CatalogueInfo::stress_drop},
-    {"peak_slip", &Event::peak_slip, nullptr, &CatalogueInfo::peak_slip},
-    {"moment_strike", &Event::moment_strike, nullptr, &CatalogueInfo::plane},
-    {"moment_dip", &Event::moment_dip, nullptr, &CatalogueInfo::plane},
-    {"z_centroid", &Event::z_centroid, nullptr, &CatalogueInfo::plane},
-    {"rupture_width", &Event::rupture_width, nullptr, &CatalogueInfo::plane},
-    {"rupture_area", &Event::rupture_area, nullptr, &CatalogueInfo::plane},
-    {"z_hypocentre", &Event::z_hypocentre, nullptr, &CatalogueInfo::plane},
-    {"z_begin", &Event::z_begin, nullptr, &CatalogueInfo::plane},
-    {"peak_slip_rate", &Event::peak_slip_rate, nullptr, &CatalogueInfo::plane},
-    {"friction_work", &Event::friction_work, nullptr, &CatalogueInfo::friction},
-    {"friction_total", &Event::friction_total, nullptr, &CatalogueInfo::friction}};
+/// Those of all catalogues.
+constexpr CatalogueColumn first_columns[] = {{"event_id", nullptr, &Event::id},
+                                             {"t_start", &Event::t_start},
+                                             {"t_end", &Event::t_end},
+                                             {"step_start", nullptr, &Event::step_start},
+                                             {"step_end", nullptr, &Event::step_end},
+                                             {"size", &Event::size},
+                                             {"pe_start", &Event::pe_start},
+                                             {"pe_end", &Event::pe_end}};
+
+/// The names of all other columns.
+const std::set<std::string_view> &further_columns() {
+  static const std::set<std::string_view> all = [] {
+    std::vector<std::string_view> names;
+    add_names(names, slip_of_drops);
+    add_names(names, friction_of_drops);
+    add_names(names, columns_of_ruptures);
+    add_names(names, columns_of_planes);
+    return std::set<std::string_view>(names.begin(), names.end());
+  }();
+  return all;
+}
 
 std::string column_line(const CatalogueInfo &info) {
   std::string out;
@@ -63,9 +58,9 @@ std::string bad_model(const std::string &model) {
 }
 
 /// Names the first number of the event that is not finite, or returns "".
-std::string not_finite(const Event &event) {
-  for (const CatalogueColumn &column : all_columns)
-    if (column.number && !std::isfinite(event.*column.number))
+std::string not_finite(const std::vector<CatalogueColumn> &columns, const EventRow &event) {
+  for (const CatalogueColumn &column : columns)
+    if (!column.integer && !std::isfinite(column.of(event)))
       return "column '" + std::string(column.name) + "' is not finite, expected a finite number";
   return {};
 }
@@ -111,10 +106,20 @@ void check_info(const CatalogueInfo &info) {
 }  // namespace
 
 std::vector<CatalogueColumn> columns_of(const CatalogueInfo &info) {
-  std::vector<CatalogueColumn> columns;
-  for (const CatalogueColumn &column : all_columns)
-    if (!column.optional || info.*column.optional) columns.push_back(column);
+  std::vector<CatalogueColumn> columns(std::begin(first_columns), std::end(first_columns));
+  for (std::size_t n = 0; n < info.columns.size(); ++n)
+    columns.push_back({info.columns[n], nullptr, nullptr, n});
   return columns;
+}
+
+bool CatalogueInfo::has(std::string_view column) const {
+  return std::find(columns.begin(), columns.end(), column) != columns.end();
+}
+
+double CatalogueInfo::number(const EventRow &event, std::string_view column) const {
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  return found == columns.end() ? 0.0
+                                : event.more.at(static_cast<std::size_t>(found - columns.begin()));
 }
 
 bool CatalogueInfo::overlapping() const {
@@ -139,7 +144,7 @@ CatalogueReader::CatalogueReader(std::unique_ptr<files::Bytes> bytes, bool lenie
   read_header();
 }
 
-bool CatalogueReader::next(Event &event) {
+bool CatalogueReader::next(EventRow &event) {
   while (reader_.next(line_)) {
     if (resuming_ && !reader_.complete()) return false;
     if (!reader_.complete()) {
@@ -147,7 +152,7 @@ bool CatalogueReader::next(Event &event) {
                             " columns and a line end");
       continue;
     }
-    Event candidate;
+    EventRow candidate;
     if (!parse_row(candidate)) continue;
     const std::string problem = out_of_order(candidate, has_last_ ? &last_ : nullptr, overlapping_);
     if (!problem.empty()) {
@@ -228,34 +233,35 @@ void CatalogueReader::read_columns() {
   text::split(line_, names);
   column_line_ = line_;
   for (const std::string_view name : names) {
-    const auto *known = std::find_if(std::begin(all_columns), std::end(all_columns),
-                                     [name](const CatalogueColumn &c) { return c.name == name; });
-    columns_.push_back(known == std::end(all_columns) ? CatalogueColumn{} : *known);
-    if (known != std::end(all_columns) && known->optional) info_.*known->optional = true;
+    const auto first = std::find_if(std::begin(first_columns), std::end(first_columns),
+                                    [name](const CatalogueColumn &c) { return c.name == name; });
+    const auto further = further_columns().find(name);
+    const bool known = first != std::end(first_columns) || further != further_columns().end();
+    if (known && std::count(names.begin(), names.end(), name) > 1)
+      reader_.fail("column " + text::in_quotes(name) + " is there twice, expected once");
+    if (further != further_columns().end()) {
+      columns_.push_back({*further, nullptr, nullptr, info_.columns.size()});
+      info_.columns.push_back(*further);
+    } else {
+      columns_.push_back(known ? *first : CatalogueColumn{});
+    }
   }
-  for (const CatalogueColumn &column : all_columns) {
-    const auto there = std::count(names.begin(), names.end(), column.name);
-    if (there > 1)
-      reader_.fail("column " + text::in_quotes(column.name) + " is there twice, expected once");
-    if (there == 0 && !column.optional)
+  for (const CatalogueColumn &column : first_columns)
+    if (std::find(names.begin(), names.end(), column.name) == names.end())
       reader_.fail("column " + text::in_quotes(column.name) + " is missing, expected '" +
                    column_line(CatalogueInfo()) + "'");
-    if (there == 0 && column.optional == &CatalogueInfo::plane && info_.plane)
-      reader_.fail("column " + text::in_quotes(column.name) +
-                   " is missing, expected all columns of ruptures on a plane");
-  }
   overlapping_ = info_.overlapping();
 }
 
-bool CatalogueReader::parse_row(Event &event) {
+bool CatalogueReader::parse_row(EventRow &event) {
   const char *at = line_.data();
   const char *const end = at + line_.size();
   for (const CatalogueColumn &column : columns_) {
     const char *const begin = at;
     std::from_chars_result parsed{};
-    if (column.number) {
-      parsed = std::from_chars(at, end, event.*column.number);
-      if (!std::isfinite(event.*column.number)) parsed.ec = std::errc::result_out_of_range;
+    if (double *const place = column.place(event)) {
+      parsed = std::from_chars(at, end, *place);
+      if (!std::isfinite(*place)) parsed.ec = std::errc::result_out_of_range;
     } else if (column.integer) {
       parsed = std::from_chars(at, end, event.*column.integer);
     } else {
@@ -281,7 +287,7 @@ void CatalogueReader::report_row(const CatalogueColumn &column, std::string_view
                                std::to_string(columns_.size()) + " (" + column_line_ + ")");
   report(number, "column '" + std::string(column.name) + "' is " +
                      text::in_quotes(rest.substr(0, rest.find(','))) + ", expected " +
-                     (column.number ? "a finite number" : "an integer"));
+                     (column.integer ? "an integer" : "a finite number"));
 }
 
 void CatalogueWriter::create(const std::string &path, const CatalogueInfo &info, bool whole) {
@@ -306,7 +312,7 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
   std::int64_t length = old_header_ = reader.reader_.end();
   start(info);
   // Events are in order of their ends, so the first one to drop is where the file is cut.
-  Event event;
+  EventRow event;
   std::int64_t earlier = 0;  // events before a file that was begun by a continued run
   while (reader.next(event) && event.step_end <= last_step) {
     if (rows_ == 0) earlier = event.id - 1;
@@ -323,8 +329,8 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
   file_.keep(path, length);
 }
 
-void CatalogueWriter::write(const Event &event) {
-  std::string problem = not_finite(event);
+void CatalogueWriter::write(const EventRow &event) {
+  std::string problem = not_finite(columns_, event);
   if (problem.empty()) problem = out_of_order(event, rows_ > 0 ? &last_ : nullptr, overlapping_);
   if (!problem.empty())
     throw FileError(file_.path() + ": cannot write event " + text::number(event.id) + ": " +
@@ -332,10 +338,10 @@ void CatalogueWriter::write(const Event &event) {
   line_.clear();
   for (const CatalogueColumn &column : columns_) {
     if (!line_.empty()) line_ += ',';
-    if (column.number)
-      text::append(line_, event.*column.number);
-    else
+    if (column.integer)
       text::append(line_, event.*column.integer);
+    else
+      text::append(line_, column.of(event));
   }
   line_ += '\n';
   file_.write(line_);

@@ -7,14 +7,11 @@
 ///     # key = value ...
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
-/// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
-/// mean_slip, stress_drop, peak_slip; of ruptures on a plane then moment_strike, moment_dip,
-/// z_centroid, rupture_width, rupture_area, z_hypocentre, z_begin, peak_slip_rate; of drops beside
-/// ruptures friction_work, friction_total. The program that writes them defines them. They are
-/// written in this order; a reader finds columns by name and ignores those it does not know. Times
-/// in model time, sizes in model energy, 17 significant digits. Events are in order of time and do
-/// not overlap; identifiers increase. Events of another kind than drops of PE, named by the
-/// parameter `events`, may overlap in time and are in order of their ends. The parameter
+/// The columns that may follow are in the tables of files/event.h, for each kind of events; the
+/// program that writes them defines them. A reader finds columns by name and ignores those it does
+/// not know. Times in model time, sizes in model energy, 17 significant digits. Events are in order
+/// of time and do not overlap; identifiers increase. Events of another kind than drops of PE, named
+/// by the parameter `events`, may overlap in time and are in order of their ends. The parameter
 /// `completeness` is a size: smaller events may depend on the time step.
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
@@ -22,12 +19,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "events/event_picker.h"
+#include "files/event.h"
 #include "files/input_bytes.h"
 #include "files/line_reader.h"
 #include "files/output_file.h"
@@ -35,14 +35,22 @@
 
 namespace LSM {
 
+/// A row of a catalogue of any kind.
+struct EventRow : Event {
+  /// The numbers of the columns that not all catalogues have, in the order of CatalogueInfo.
+  std::array<double, std::size(slip_of_drops) + std::size(friction_of_drops) +
+                         std::size(columns_of_ruptures) + std::size(columns_of_planes)>
+      more{};
+};
+
 /// Header of a catalogue.
 struct CatalogueInfo : files::FileHeader {
-  bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
-  bool peak_slip = false;                                                ///< the same
-  /// Optional columns that only ruptures have.
-  bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
-  bool plane = false;     ///< the columns that only ruptures on a plane have, all of them
-  bool friction = false;  ///< the columns that only drops beside ruptures have, both of them
+  /// Names, in the tables of files/event.h, of the columns that not all catalogues have.
+  std::vector<std::string_view> columns;
+
+  bool has(std::string_view column) const;
+  /// The number of an event in one of these columns; 0 if the catalogue does not have it.
+  double number(const EventRow &event, std::string_view column) const;
 
   /// Whether events may overlap in time; if so, they are sorted by their ends.
   bool overlapping() const;
@@ -56,14 +64,20 @@ struct CatalogueInfo : files::FileHeader {
 
 constexpr std::string_view catalogue_magic = "# lsm-catalogue ";
 
-/// A column of the table. One of `number` and `integer` points to its member of an event;
-/// `optional` points to the flag that says whether a catalogue has the column, or is null for
-/// columns that every catalogue has.
+/// A column of a catalogue: a member of all events or, if it is none, one of EventRow::more.
 struct CatalogueColumn {
   std::string_view name;
   double Event::*number = nullptr;
   std::int64_t Event::*integer = nullptr;
-  bool CatalogueInfo::*optional = nullptr;
+  std::size_t more = SIZE_MAX;  ///< its place there; SIZE_MAX: of a column that is not known
+
+  /// Where a row has the number; nullptr for an integer, or a column that is not known.
+  double *place(EventRow &row) const {
+    return number ? &(row.*number) : more < row.more.size() ? &row.more[more] : nullptr;
+  }
+  double of(const EventRow &row) const {
+    return number ? row.*number : integer ? static_cast<double>(row.*integer) : row.more.at(more);
+  }
 };
 
 /// The columns of a catalogue, in the order of the file.
@@ -83,7 +97,7 @@ class CatalogueReader {
 
   /// Reads the next event. Returns false at the end of the file.
   /// \throws FileError (strict)
-  bool next(Event &event);
+  bool next(EventRow &event);
 
   std::int64_t skipped() const { return skipped_; }  ///< bad lines skipped (lenient)
   /// Message of the first bad line skipped, or "" (lenient).
@@ -107,7 +121,7 @@ class CatalogueReader {
 
   /// Converts line_ to an event. Reports the problem and returns false if the line does not match
   /// the columns.
-  bool parse_row(Event &event);
+  bool parse_row(EventRow &event);
 
   /// Reports why parse_row() refused line_. `rest` begins with the first column that could not be
   /// read.
@@ -151,7 +165,21 @@ class CatalogueWriter : public files::ResumableFile {
   /// Appends one line and hands it to the operating system.
   /// \throws FileError if that fails, or if a reader would not accept the event after the previous
   /// one (NaN, order)
-  void write(const Event &event);
+  void write(const EventRow &event);
+  /// The same for an event of a kind that has the columns of the catalogue.
+  /// \throws std::invalid_argument if it has not
+  template <class Kind>
+  void write(Kind event) {
+    static_assert(!std::is_base_of_v<EventRow, Kind>, "a row has its columns in its own order");
+    EventRow row{event, {}};
+    for (const CatalogueColumn &column : columns_) {
+      if (column.number || column.integer) continue;
+      const double *const number = number_in(event, column.name);
+      if (!number) throw std::invalid_argument("events without column " + std::string(column.name));
+      row.more[column.more] = *number;
+    }
+    write(row);
+  }
 
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "events/event_picker.h"
+#include "files/event.h"
 #include "files/names.h"
 #include "files/text.h"
 

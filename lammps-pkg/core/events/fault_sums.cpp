@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "events/fault_grid.h"
+#include "events/fault_sums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,6 @@
 #include "numerics/constants.h"
 
 namespace LSM {
-
-double FaultGrid::time(std::int64_t step) const {
-  return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
-}
-
-bool FaultGrid::ends_interval(std::int64_t step) const {
-  return step > step0 && (step - step0) % interval == 0;
-}
 
 MeanPlace::MeanPlace(const FaultAxis &axis) : axis_(axis) {
   const double circle = 2.0 * pi / axis.bins;
@@ -63,7 +55,7 @@ std::vector<double> face_displacements(const FaultGrid &grid, const double *sums
   for (std::size_t row = 0; row < rows; ++row) {
     std::vector<std::size_t> occupied;  // bins with particles
     for (std::size_t b = 0; b < bins; ++b) {
-      const double *const s = sums + grid.fields() * (b * rows + row);
+      const double *const s = sums + fields_of(grid) * (b * rows + row);
       if (!(s[steps_field] > 0.0)) continue;
       mean[b * rows + row] = s[field] / s[steps_field] * static_cast<double>(steps);
       occupied.push_back(b);
@@ -86,7 +78,7 @@ FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps
     const std::vector<double> above = face_displacements(grid, sums, upper, UPPER_STEPS, steps),
                               below = face_displacements(grid, sums, lower, LOWER_STEPS, steps);
     for (std::size_t b = 0; b < row.work.size(); ++b) {
-      const double *const s = sums + grid.fields() * b;
+      const double *const s = sums + fields_of(grid) * b;
       const std::size_t n = grid.components() * b + component;
       row.slip[n] = static_cast<float>(above[b] - below[b]);
       row.work[b] = static_cast<float>(s[WORK]);
@@ -97,7 +89,5 @@ FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps
   if (grid.plane) all(UPPER_DIP, LOWER_DIP, FORCE_DIP, 1);
   return row;
 }
-
-double slipping_above(const FaultGrid &grid, double velocity) { return velocity * grid.duration(); }
 
 }  // namespace LSM

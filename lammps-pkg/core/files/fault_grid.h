@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file events/fault_grid.h
+/// \file files/fault_grid.h
 /// Divides a fault into bins along it, or a plane into cells along strike and dip, and time into
 /// intervals of some steps, and describes what the faces did in each.
 ///
@@ -58,13 +58,16 @@ struct FaultGrid {
   FaultAxis dip() const { return {rows, z0, height, ring_dip}; }
   int cells() const { return bins * rows; }
   std::size_t components() const { return plane ? 2 : 1; }
-  std::size_t fields() const;  ///< sums of a cell, see FaultField
   double area() const { return plane ? width * height : width; }  ///< of a cell; of a bin its width
 
   double length() const { return bins * width; }
   double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
-  double time(std::int64_t step) const;
-  bool ends_interval(std::int64_t step) const;
+  double time(std::int64_t step) const {
+    return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
+  }
+  bool ends_interval(std::int64_t step) const {
+    return step > step0 && (step - step0) % interval == 0;
+  }
   double centre(std::int64_t bin) const { return strike().centre(bin); }
 };
 
@@ -78,21 +81,6 @@ struct FaultVector {
     if (!grid.plane) return {static_cast<double>(all[cell]), 0.0};
     return {static_cast<double>(all[2 * cell]), static_cast<double>(all[2 * cell + 1])};
   }
-};
-
-/// Mean place of bins with weights: on a ring the circular mean.
-class MeanPlace {
- public:
-  explicit MeanPlace(const FaultAxis &axis);
-  /// What the weight of a bin is multiplied with in the two sums.
-  double cosine(std::size_t bin) const { return cosine_[bin]; }
-  double sine(std::size_t bin) const { return sine_[bin]; }
-  /// The place, from the two sums over the bins; the begin of the fault if there are no weights.
-  double of(double cosines, double sines) const;
-
- private:
-  FaultAxis axis_;
-  std::vector<double> cosine_, sine_;  // of the direction on the ring; otherwise place and 1
 };
 
 /// What the bins or cells of the fault did in one interval. Slip and stress along strike are
@@ -111,35 +99,6 @@ struct FaultRow {
   }
 };
 
-/// Sums of a bin over an interval, see SlipRecorder: displacements of the particles of each face
-/// and the steps that these took, work and force of the contacts; of a cell of a plane then the
-/// displacements and the force along dip.
-enum FaultField : std::size_t {
-  UPPER,
-  UPPER_STEPS,
-  LOWER,
-  LOWER_STEPS,
-  WORK,
-  FORCE,
-  fault_fields,
-  UPPER_DIP = fault_fields,
-  LOWER_DIP,
-  FORCE_DIP,
-  plane_fields
-};
-inline std::size_t FaultGrid::fields() const { return plane ? plane_fields : fault_fields; }
-
-/// Mean displacement of a face in each cell, in so many steps. That of a cell without particles is
-/// interpolated linearly between the nearest two along strike with particles, on a ring across the
-/// seam; where a whole row has none, between the nearest two rows with particles.
-/// \param field, steps_field of the face
-std::vector<double> face_displacements(const FaultGrid &grid, const double *sums, FaultField field,
-                                       FaultField steps_field, std::int64_t steps);
-
-/// Calculates the row of an interval from SlipRecorder::sums().
-/// \param steps length of the interval
-FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps);
-
 /// Defines what slips and what is connected. Part of the header of a slip history.
 struct RuptureSettings {
   double velocity = 0.0;    ///< bins whose slip velocity exceeds this slip
@@ -149,7 +108,9 @@ struct RuptureSettings {
 };
 
 /// Displacement in an interval above which a bin slips. All code that finds ruptures uses this.
-double slipping_above(const FaultGrid &grid, double velocity);
+inline double slipping_above(const FaultGrid &grid, double velocity) {
+  return velocity * grid.duration();
+}
 
 }  // namespace LSM
 
