@@ -164,7 +164,7 @@ RUPTURES = {path.stem: type(path.stem, (Rupture,), {"scene": path.stem}) for pat
 
 class Slider:
     catalogue, on_ranks = "catalogue.csv", False
-    OWN = {"catalogue", "checkpoint", "json", "progress", "resume", "overwrite", "ensemble", "threads", "config", "help", "version"}
+    OWN = {"catalogue", "checkpoint", "json", "progress", "resume", "overwrite", "config", "help", "version"}
 
     @staticmethod
     def known(binaries):

@@ -36,7 +36,6 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   view.u = blocks_of(u_, 0.0);
   view.v = blocks_of(v_, 0.0);
   view.force = blocks_of(force_, 0.0);
-  if (p.friction.needs_rest()) view.rest = blocks_of(rest_, 0.0);
   double *const limits = blocks_of(mu_, 1e300);
   std::copy(mu.begin(), mu.end(), limits);
   view.mu = limits;
@@ -157,7 +156,6 @@ bool Chain::leap(std::int64_t last, std::int64_t least, double fast, bool falls,
   leap_pe_ = pe();
   for (int i = 0; i < view_.blocks; ++i) view_.u[i] = creep.displacement(i);
   std::fill(view_.v, view_.v + view_.blocks, 0.0);
-  if (view_.rest) std::copy(view_.u, view_.u + view_.blocks, view_.rest);
   account_.leap(creep.now().pe, plate_step_ * creep.now().pe_rate, view_.u);
   step_ = landing;
   restart();
@@ -180,23 +178,19 @@ ChainState Chain::state() const {
   s.moved = moved_;
   s.u = displacements();
   s.v = velocities();
-  if (view_.rest) s.rest.assign(view_.rest, view_.rest + view_.blocks);
   if (view_.ahead) s.ahead.assign(view_.ahead, view_.ahead + view_.blocks);
   return s;
 }
 
 void Chain::set_state(const ChainState &s) {
   const std::size_t n = static_cast<std::size_t>(view_.blocks);
-  if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) ||
-      (!s.ahead.empty() && s.ahead.size() != n) || s.step < 0)
+  if (s.u.size() != n || s.v.size() != n || (!s.ahead.empty() && s.ahead.size() != n) || s.step < 0)
     throw std::invalid_argument("saved chain does not fit --blocks");
   account_.restore(s);
   step_ = s.step;
   moved_ = s.moved;
   std::copy(s.u.begin(), s.u.end(), view_.u);
   std::copy(s.v.begin(), s.v.end(), view_.v);
-  const std::vector<double> &rest = s.rest.empty() ? s.u : s.rest;
-  if (view_.rest) std::copy(rest.begin(), rest.end(), view_.rest);
   for (std::size_t i = 0; view_.ahead && i < n; ++i)
     view_.ahead[i] = s.ahead.empty() ? view_.dt * s.v[i] : s.ahead[i];
   restart();
@@ -207,7 +201,6 @@ void Chain::restart() {
   double *const u = view_.u;
   u[-1] = u[view_.blocks - 1];
   u[view_.blocks] = u[0];
-  if (view_.rest) view_.rest[view_.blocks] = u[0];
   if (forces_) forces_->find(u);
   for (int i = 0; i < view_.blocks; ++i) view_.force[i] = view_.pull(i, plate());
   if (!cells_.empty()) {

@@ -114,7 +114,7 @@ class Chain {
 
   double plate_step_;
   StepFunction function_;
-  Array u_, v_, force_, mu_, rest_, ahead_, change_;
+  Array u_, v_, force_, mu_, ahead_, change_;
   std::unique_ptr<ModeForces> forces_;
   std::vector<double> first_mu_;  // at step 0
   // In a landscape: number of the cell that each block is in, and displacement at which it leaves

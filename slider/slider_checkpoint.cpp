@@ -17,7 +17,7 @@ namespace Slider {
 
 namespace {
 
-constexpr int version = 6;
+constexpr int version = 7;
 constexpr const char *title = "slider_cli checkpoint ";
 
 /// The key if a run that continues may change its value, otherwise "".
@@ -46,8 +46,8 @@ void write_checkpoint(const std::string &path, const std::vector<std::string> &s
   LSM::StateWriter to(numbers);
   to(state);
   std::string run;
-  for (const std::string &setting : settings) run += setting + "\n";
-  run += "\n";
+  for (const std::string &setting : settings) run += "\n" + setting;
+  run += "\n\n";
   for (const double number : numbers) LSM::binary_io::append_bytes(run, number);
   const std::string head =
       title + std::to_string(version) + " " + std::to_string(LSM::crc32(run)) + "\n";
@@ -78,7 +78,8 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
 
   std::istringstream lines(run.substr(0, end));
   std::vector<std::string> found;
-  for (std::string line; std::getline(lines, line);) found.push_back(line);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) found.push_back(line);
   compare(path, found, settings);
   std::vector<double> numbers;
   for (std::size_t at = end + 2; at + sizeof(double) <= run.size(); at += sizeof(double))

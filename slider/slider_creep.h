@@ -192,8 +192,6 @@ class Creep {
     if (!(growth > 1.0)) return true;
     const Friction &law = p_.friction;
     if (law.law == Law::coulomb) return law.dynamic < 1.0;
-    if (law.law == Law::slip_weakening)
-      return law.dynamic < 1.0 && !holds(first, length, 0.0, (1.0 - law.dynamic) / law.dc, 1.0);
     const double turn = LSM::pi / std::log(growth), softer = 1.0 / (1.0 + turn * turn);
     // The minimum is at s = a, which lies between those of the weakest and the strongest block.
     constexpr int tries = 9;

@@ -30,8 +30,6 @@ struct ChainState {
   double dpe = 0.0;        ///< change of PE over the last step
   double radiated = 0.0, radiated_compensation = 0.0;
   std::vector<double> u, v;
-  /// Displacements at which the blocks last rested, if the law needs them; empty: the present ones.
-  std::vector<double> rest;
   /// Slips in the next step, for the scheme without inertia; empty: from the present velocities.
   std::vector<double> ahead;
 
@@ -40,7 +38,7 @@ struct ChainState {
     state(self.step, self.slip_sum, self.slip_compensation, self.pe_sum, self.pe_compensation,
           self.quiet_since, self.pe_anchor, self.loading_anchor, self.moved, self.dpe,
           self.radiated, self.radiated_compensation);
-    for (auto *values : {&self.u, &self.v, &self.rest, &self.ahead}) state.list(*values);
+    for (auto *values : {&self.u, &self.v, &self.ahead}) state.list(*values);
   }
 };
 

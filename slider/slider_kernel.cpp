@@ -58,16 +58,13 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 #endif
 }
 
-// Friction of a register of blocks after the given slips. For a block at rest with f <= m it is at
-// least f.
+// Friction of a register of blocks. For a block at rest with f <= m it is at least f.
 template <Law law>
 inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
-                                                        Register v, Register f, Register slip) {
+                                                        Register v, Register f) {
   const Register zero = {}, low = chain.friction.dynamic * m;
   if constexpr (law == Law::coulomb)
     return LSM::CoulombStatic::friction(m, low, (v > zero) | (f > m));
-  else if constexpr (law == Law::slip_weakening)
-    return LSM::SlipWeakening::strength(m, low, zero + chain.friction.dc, slip);
   else
     return LSM::VelocityWeakening::friction(m, v);
 }
@@ -98,11 +95,10 @@ struct Balance {
 // \param old forces at the beginning of the step
 // \param moved slips during the step
 // \param slides blocks that have slid throughout the step
-// \param slip slips since the blocks last rested
 template <Law law>
 inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Register m,
                                                       Register old, Register f, Register moved,
-                                                      Mask slides, Register slip) {
+                                                      Mask slides) {
   const Register zero = {}, one = zero + 1.0;
   const double by_radiation = 1.0 / chain.radiation;
   const Register next = slides ? f + (f - old) : f;
@@ -153,10 +149,9 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
     mean = sum > zero ? ((p * v + q * middle) + r * last) / sum : middle;
     part = stops ? part : one;
   } else {
-    v = by_radiation * (f - friction<law>(chain, m, slides ? one : zero, f, slip));
+    v = by_radiation * (f - friction<law>(chain, m, slides ? one : zero, f));
     v = v > zero ? v : zero;
-    const Register last =
-        by_radiation * (next - friction<law>(chain, m, v, f, slip + chain.dt * v));
+    const Register last = by_radiation * (next - friction<law>(chain, m, v, f));
     stops = last < zero;
     if (bits(stops) != 0) part = stops ? v / (v - last) : one;
     mean = stops ? 0.5 * v : 0.5 * (v + last);
@@ -191,7 +186,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   // hot_lanes, which might alias them.
   const ModeArrays modes = chain.of_modes;
   double *const changed = chain.change;
-  constexpr bool needs_rest = law == Law::slip_weakening;
   constexpr bool balances = scheme == Scheme::adams_bashforth;
   // Blocks move (the first half of the step), then their springs pull. `lag` chunks lie between the
   // chunk that is moved and the one that is pulled: its neighbours have been moved by then, its
@@ -212,19 +206,15 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     const std::int64_t i = place(k);
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
     Lanes x = load(u + i);
-    [[maybe_unused]] Lanes rest;
-    if constexpr (needs_rest) rest = load(chain.rest + i);
     for (int r = 0; r < registers; ++r) {
       Register moved;
       if constexpr (balances) {
         moved = load_register(chain.ahead + i + r * SLIDER_LANES);
         moved = moved < zero ? -moved : moved;
       } else {
-        Register slid = zero;
-        if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
         // A block at rest has v = 0, so that f <= mu leaves it at rest without a branch, and a
         // block whose velocity would become negative sticks.
-        Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
+        Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r]);
         if constexpr (radiates) push -= eta * v.r[r];
         Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
         w = w > zero ? w : zero;
@@ -254,7 +244,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         for (int r = 0; r < registers; ++r) starts |= f.r[r] > m.r[r];
         if (bits(starts) == 0) {
           store(force + i, f);
-          if constexpr (needs_rest) store(chain.rest + i, x);
           return;
         }
         hot_lanes[k] = 1;
@@ -270,16 +259,10 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     const Lanes old = load(force + i);
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
-      [[maybe_unused]] Register rest = zero, slid = zero;
-      if constexpr (needs_rest) {
-        rest = load_register(chain.rest + i + r * SLIDER_LANES);
-        slid = x.r[r] - rest;
-      }
       if constexpr (balances) {
         const Register planned = load_register(chain.ahead + i + r * SLIDER_LANES);
         const Mask slides = (v.r[r] > zero) & (planned >= zero);
-        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides,
-                                         slides ? slid : zero);
+        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
         // Until it stops, a block has been about as fast as at the beginning of the step.
         radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
@@ -293,15 +276,10 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         }
         v.r[r] = velocity_at(c, b);
       } else if constexpr (scheme == Scheme::verlet) {
-        // A block that came to rest in the first half of the step has regained its static strength.
-        const Register since = v.r[r] > zero ? slid : zero;
-        Register w =
-            v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], since));
+        Register w = v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r]));
         if constexpr (radiates) w *= slower;
         v.r[r] = w > zero ? w : zero;
       }
-      if constexpr (needs_rest)
-        store_register(chain.rest + i + r * SLIDER_LANES, v.r[r] > zero ? rest : x.r[r]);
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
       if constexpr (!by_modes) slip.r[r] += change.r[r];
@@ -319,7 +297,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     __builtin_prefetch(velocity + i, 1);
     __builtin_prefetch(force + i, 1);
     __builtin_prefetch(mu + i);
-    if constexpr (needs_rest) __builtin_prefetch(chain.rest + i, 1);
   };
 
   const auto sum = [](const Lanes &lanes) __attribute__((always_inline)) {
@@ -363,8 +340,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     const int begin = count > 0 && list[0] == 0 ? 1 : 0;
     if (begin == 1) move(0, first_change);
     u[chain.blocks] = u[0];
-    // the ghost in the last chunk rests where it is: a law without dynamic strength would let it go
-    if constexpr (needs_rest) chain.rest[chain.blocks] = u[0];
     for (int k = begin; k < count + lag; ++k) {
       if (k + ahead < count) fetch(k + ahead);
       if (k < count) move(k, changes[static_cast<unsigned>(k) % ring]);
@@ -383,10 +358,12 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
 template <Law law, Kind kind>
 StepFunction of_scheme(Scheme scheme) {
   if (scheme == Scheme::verlet) return step<Scheme::verlet, law, kind>;
-  if (scheme == Scheme::semi_implicit) return step<Scheme::semi_implicit, law, kind>;
   if constexpr (kind == Kind::radiating_springs || kind == Kind::radiating_modes)
     if (scheme == Scheme::adams_bashforth) return step<Scheme::adams_bashforth, law, kind>;
-  return step<Scheme::printed, law, kind>;
+  // As printed the scheme is that of the paper's chain.
+  if constexpr (law == Law::velocity_weakening && kind == Kind::springs)
+    if (scheme == Scheme::printed) return step<Scheme::printed, law, kind>;
+  return nullptr;
 }
 
 template <Law law>
@@ -399,10 +376,8 @@ StepFunction of_law(const Parameters &p) {
 }
 
 StepFunction function_of(const Parameters &p) {
-  const Law law = p.friction.law;
-  return law == Law::coulomb          ? of_law<Law::coulomb>(p)
-         : law == Law::slip_weakening ? of_law<Law::slip_weakening>(p)
-                                      : of_law<Law::velocity_weakening>(p);
+  return p.friction.law == Law::coulomb ? of_law<Law::coulomb>(p)
+                                        : of_law<Law::velocity_weakening>(p);
 }
 
 }  // namespace Slider::SLIDER_SET

@@ -22,7 +22,6 @@ struct ChainView : Parameters {
   double *u = nullptr;         ///< displacement
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
-  double *rest = nullptr;      ///< displacement at which a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
   double stiffness = 0.0;      ///< that a block feels while all others rest
   double *ahead = nullptr;     ///< without inertia: slip in the next step; < 0: it stops after it
@@ -66,7 +65,8 @@ bool has(InstructionSet set);
 InstructionSet widest_instruction_set();
 
 /// Returns the kernel that these parameters need.
-/// \throws std::invalid_argument if the processor lacks the instruction set
+/// \throws std::invalid_argument if the processor lacks the instruction set, or scheme and model do
+/// not fit together
 StepFunction step_function(const Parameters &p, InstructionSet set);
 
 }  // namespace Slider

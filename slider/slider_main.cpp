@@ -11,7 +11,6 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "files/output_file.h"
@@ -23,7 +22,6 @@ namespace {
 
 using Slider::Settings;
 
-// Set by the signal handler and read by all threads of an ensemble.
 std::atomic<int> stop_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
 extern "C" void note_signal(int number) { stop_signal.store(number, std::memory_order_relaxed); }
@@ -54,7 +52,6 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
     j["leaps"] = r.leaps;
     j["steps_leapt"] = r.leapt;
   }
-  j["kernel"] = Slider::to_string(s.run.kernel);
   j["instruction_set"] = Slider::to_string(Slider::widest_instruction_set());
   j["seconds"] = r.seconds;
   j["nanoseconds_per_step"] =
@@ -73,78 +70,28 @@ void warn(const Slider::Parameters &p) {
                p.dt, limit);
 }
 
-/// Calls task(0) to task(count - 1) in parallel. A task must not throw.
-/// \param threads number of threads; 0: one per core
-template <class Task>
-void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < count; k = next++) task(k);
-  };
-  if (threads == 0) threads = std::thread::hardware_concurrency();
-  std::vector<std::thread> pool;
-  for (std::size_t k = 1; k < std::min(threads, count); ++k) pool.emplace_back(work);
-  work();
-  for (auto &thread : pool) thread.join();
-}
-
-/// Carries out one run or those of an ensemble.
+/// Carries out the run.
 /// \return exit status
-int run_all(const std::vector<Settings> &all, const Settings &base) {
-  if (base.summary != "-") Slider::probe(base.summary);
-  std::vector<Slider::RunResult> results(all.size());
-  std::vector<std::string> errors(all.size());
-  for_each_index(all.size(), base.threads, [&](std::size_t k) {
-    const int stopped_by = stop_signal;
-    if (stopped_by != 0 && all[k].run.checkpoint.empty()) {
-      results[k].interrupted = stopped_by;
-      return;
-    }
-    try {
-      results[k] = Slider::run(all[k].run);
-    } catch (const std::bad_alloc &) {
-      errors[k] = "out of memory, expected fewer --blocks";
-    } catch (const std::exception &e) {
-      errors[k] = e.what();
-    }
-  });
-  nlohmann::ordered_json j = nlohmann::ordered_json::array();
-  int status = 0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Slider::RunResult &r = results[k];
-    const std::string name =
-        base.ensemble.empty() ? "" : fmt::format("run {} of the ensemble: ", k + 1);
-    if (!errors[k].empty()) {
-      fmt::print(stderr, "slider_cli: {}{}\n", name, errors[k]);
-      status = 1;
-      continue;
-    }
-    if (base.summary != "-") {
-      fmt::print("{}: {} events in {} steps, {:.3g} s\n", all[k].run.catalogue, r.events, r.steps,
-                 r.seconds);
-      if (r.by_plate > 0)
-        fmt::print(
-            "{} drops of PE by the plate, not by slip, {}\n", r.by_plate,
-            all[k].run.keep_by_plate ? "are among them (--without-plate-drops)" : "were left out");
-    }
-    if (r.interrupted != 0) {
-      fmt::print(
-          stderr, "slider_cli: {}stopped by signal {} at step {}; {}\n", name, r.interrupted,
-          r.steps,
-          all[k].run.checkpoint.empty() ? "no --checkpoint was given" : "continue with --resume");
-      if (status == 0) status = 128 + r.interrupted;
-    }
-    j.push_back(summary(all[k], r));
+int run(const Settings &s) {
+  if (s.summary != "-") Slider::probe(s.summary);
+  const Slider::RunResult r = Slider::run(s.run);
+  if (s.summary != "-") {
+    fmt::print("{}: {} events in {} steps, {:.3g} s\n", s.run.catalogue, r.events, r.steps,
+               r.seconds);
+    if (r.by_plate > 0)
+      fmt::print("{} drops of PE by the plate, not by slip, {}\n", r.by_plate,
+                 s.run.keep_by_plate ? "are among them (--without-plate-drops)" : "were left out");
   }
-  if (base.ensemble.empty() && status == 1) return status;
-  if (base.ensemble.empty()) j = j.at(0);
+  if (r.interrupted != 0)
+    fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; {}\n", r.interrupted, r.steps,
+               s.run.checkpoint.empty() ? "no --checkpoint was given" : "continue with --resume");
   const std::string text =
-      j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (base.summary == "-")
+      summary(s, r).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (s.summary == "-")
     std::cout << text;
-  else if (!base.summary.empty())
-    LSM::files::write_file(base.summary, text);
-  return status;
+  else if (!s.summary.empty())
+    LSM::files::write_file(s.summary, text);
+  return r.interrupted != 0 ? 128 + r.interrupted : 0;
 }
 
 }  // namespace
@@ -161,11 +108,8 @@ int main(int argc, char **argv) {
       sigaction(number, &act, nullptr);
     }
     warn(settings.run.parameters);
-    const std::vector<Settings> all = settings.ensemble.empty()
-                                          ? std::vector<Settings>{settings}
-                                          : Slider::ensemble(settings, arguments);
-    Slider::check_files(all);
-    const int status = run_all(all, settings);
+    Slider::check_files(settings);
+    const int status = run(settings);
     if (settings.summary == "-" && !std::cout.flush())
       throw std::runtime_error("--json -: cannot write to standard output");
     return status;

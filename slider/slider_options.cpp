@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "files/file_error.h"
@@ -50,7 +48,7 @@ class CommandLine {
     run_.catalogue = "slider_catalogue.csv";
     run_.filter.warmup = 12000.0;
     run_.checkpoint_interval = 1000000;
-    p_.friction = {Law::velocity_weakening, 0.8, 0.1};
+    p_.friction.dynamic = 0.8;
     LSM::set_up(app_, SLIDER_VERSION);
     const auto checked = [this](std::string &path) {
       check_config(path);
@@ -99,25 +97,17 @@ class CommandLine {
               "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
               "needs --radiation");
     group.add("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
-    CLI::Option *const range =
-        group.add("--friction-range", friction_,
-                  "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)", LSM::values(2));
-    CLI::Option *const file = group.add(
-        "--friction-file", friction_file_,
-        "File with the static coefficient of each block, one per line (force) †", excludes(range));
+    group.add("--friction-range", friction_,
+              "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)", LSM::values(2));
     group.add("--correlation-length", p_.landscape.length,
               "The static coefficient of a block is drawn anew from --friction-range after "
-              "each slip of this length, as on a rough surface; 0: never (length) †",
-              excludes(file));
+              "each slip of this length, as on a rough surface; 0: never (length) †");
     LSM::add_seed(group, s_.seed, "Seed of the coefficients");
     group.choose("--law", p_.friction.law,
                  "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; † "
-                 "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
-                 "R mu_0i over the slip of --slip-distance since the block last rested");
+                 "coulomb, R mu_0i with the R of --dynamic-friction");
     group.add("--dynamic-friction", p_.friction.dynamic,
-              "Dynamic over static coefficient, of coulomb and slip-weakening †");
-    group.add("--slip-distance", p_.friction.dc,
-              "Slip over which slip-weakening weakens (length) †");
+              "Dynamic over static coefficient, of coulomb †");
   }
 
   void add_integration() {
@@ -132,16 +122,15 @@ class CommandLine {
                   shown("1e7 with --paper, else from --time"));
     group.add("--time", time_, "Model time to run for (time)", excludes(steps), not_paper);
     group.add("--dt", p_.dt, "Time step h (time) †", not_paper);
-    group.choose("--scheme", p_.scheme,
-                 "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-                 "refused at 0.12 and above; in the step in which a block stops friction is what "
-                 "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; † "
-                 "semi-implicit (order 1), verlet (order 2), and without inertia (--mass 0) always "
-                 "adams-bashforth",
-                 not_paper);
+    group.choose(
+        "--scheme", p_.scheme,
+        "printed: Eqs. 7 and 8, order 1, for the paper's chain and Eq. 6 only, unstable in "
+        "the long run: warns above dt 0.01, refused at 0.12 and above; in the step in "
+        "which a block stops friction is what stops it, the acceleration -v/h, so that "
+        "Eq. 7 moves it by h v/2; † verlet (order 2), and without inertia (--mass 0) "
+        "always adams-bashforth",
+        not_paper);
     group.flag("--unstable", unstable_, "Run the printed scheme above these limits");
-    group.choose("--kernel", run_.kernel,
-                 "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
     group.add(
         "--leap", run_.leap_speed,
         "Slow loading without time steps, a leap †: once no block has been faster than this for 50 time "
@@ -192,7 +181,7 @@ class CommandLine {
   }
 
   void add_files() {
-    OptionGroup group(&app_, "Files"), runs(&app_, "Several runs");
+    OptionGroup group(&app_, "Files");
     group.add("--catalogue", run_.catalogue, "Catalogue to write");
     group.call<std::string>(
         "--columns", [this](const std::string &list) { take_columns(list); },
@@ -213,14 +202,9 @@ class CommandLine {
         needs(checkpoint));
     group.flag("--overwrite", run_.overwrite,
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "
-               "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");
+               "otherwise");
     group.add("--json", s_.summary, "JSON summary to write; - is standard output");
     group.flag("--progress", run_.progress, "Show the progress on standard error every second");
-    runs.add("--ensemble", s_.ensemble,
-             "A number of runs with successive seeds, or a file with the options of one run per "
-             "line; '{run}' in output names is replaced by the run's number, from 1, or put "
-             "before the extension");
-    runs.add("--threads", s_.threads, "Runs at a time; 0: one per core", LSM::whole_number(4096));
   }
 
   /// Refuses keys that appear twice, as CLI11 would silently take the last one.
@@ -255,9 +239,7 @@ class CommandLine {
   void interpret() {
     const Law law = p_.friction.law;
     if (given("--dynamic-friction") && law == Law::velocity_weakening)
-      throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");
-    if (given("--slip-distance") && law != Law::slip_weakening)
-      throw std::invalid_argument("--slip-distance needs --law slip-weakening");
+      throw std::invalid_argument("--dynamic-friction needs --law coulomb");
     if (given("--rupture-gap") && run_.events != Events::ruptures)
       throw std::invalid_argument("--rupture-gap needs --events ruptures");
     if (without_plate_drops_ && run_.events != Events::pe)
@@ -309,10 +291,8 @@ class CommandLine {
       throw std::invalid_argument(fmt::format(
           "--friction-range = {} {}, expected finite numbers 0 <= LOW <= HIGH", low, high));
     p_.landscape = {p_.landscape.length, low, high, s_.seed};
-    run_.mu = friction_file_.empty() ? random_friction(p_.blocks, low, high, s_.seed)
-                                     : read_strengths(friction_file_, p_.blocks);
-    for (const std::string &path : {by_file() ? coupling_ : "", friction_file_})
-      if (!path.empty()) s_.inputs.push_back(path);
+    run_.mu = random_friction(p_.blocks, low, high, s_.seed);
+    if (by_file()) s_.inputs.push_back(coupling_);
   }
 
   bool by_file() const {
@@ -370,14 +350,12 @@ class CommandLine {
     add("radiation", p_.radiation, p_.radiation > 0.0);
     add("mass", p_.mass);
     add("velocity", p_.velocity);
-    if (!friction_file_.empty()) add("friction_file", named_with_checksum(friction_file_));
-    add("friction_low", friction_[0], friction_file_.empty());
-    add("friction_high", friction_[1], friction_file_.empty());
+    add("friction_low", friction_[0]);
+    add("friction_high", friction_[1]);
     add("correlation_length", p_.landscape.length, p_.landscape.length > 0.0);
     add("seed", s_.seed);
     add("law", to_string(law), law != Law::velocity_weakening);
     add("dynamic_friction", p_.friction.dynamic, law != Law::velocity_weakening);
-    add("slip_distance", p_.friction.dc, law == Law::slip_weakening);
     add("scheme", to_string(p_.scheme));
     add("dt", p_.dt);
     add("steps", run_.steps);
@@ -409,55 +387,12 @@ class CommandLine {
   Parameters &p_ = s_.run.parameters;
   LSM::PickerOptions picker_;
   std::vector<double> friction_ = {0.5, 1.0};
-  std::string coupling_ = "chain", friction_file_;
+  std::string coupling_ = "chain";
   Strip strip_;
   double time_ = 1e5, rupture_gap_ = 0.0;
   CLI::Option *paper_option_ = nullptr;
   bool paper_ = false, unstable_ = false, without_plate_drops_ = false;
 };
-
-/// The path of a run of an ensemble.
-std::string numbered(const std::string &path, std::size_t run) {
-  const std::string text = std::to_string(run);
-  const std::size_t mark = path.find("{run}");
-  if (mark != std::string::npos) return path.substr(0, mark) + text + path.substr(mark + 5);
-  std::filesystem::path out = path;
-  if (!path.empty())
-    out.replace_filename(out.stem().string() + "-" + text + out.extension().string());
-  return out.string();
-}
-
-/// Whether a file is the JSON summary of a run, or of an ensemble.
-bool is_summary(std::string_view head) {
-  const std::string one = "{\n  \"parameters\": {", all = "[\n  {\n    \"parameters\": {";
-  return LSM::begins_with(one)(head) || LSM::begins_with(all)(head) || head == "[]\n";
-}
-
-/// Returns the options in which the runs of an ensemble differ.
-std::vector<std::vector<std::string>> runs_of(const Settings &base) {
-  std::vector<std::vector<std::string>> runs;
-  std::int64_t count = 0;
-  if (LSM::text::parse(base.ensemble, count)) {
-    if (count < 1 || count > 100000)
-      throw std::invalid_argument("--ensemble = " + base.ensemble + ", expected 1 to 100000 runs");
-    for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(count); ++k)
-      runs.push_back({"--seed", std::to_string(base.seed + k)});
-    return runs;
-  }
-  if (!std::ifstream(base.ensemble))
-    throw std::invalid_argument("--ensemble = '" + base.ensemble +
-                                "', expected a number of runs or a readable file");
-  LSM::files::LineReader in(base.ensemble);
-  for (std::string_view line; in.next(line);) {
-    std::istringstream words{std::string(line)};
-    std::vector<std::string> extra;
-    for (std::string word; words >> word && word[0] != '#';) extra.push_back(word);
-    if (!extra.empty()) runs.push_back(extra);
-  }
-  if (runs.empty())
-    throw std::invalid_argument(base.ensemble + ": no run found, expected options on each line");
-  return runs;
-}
 
 }  // namespace
 
@@ -467,61 +402,22 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
   return s;
 }
 
-std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments) {
-  std::vector<Settings> all;
-  for (const std::vector<std::string> &extra : runs_of(base)) {
-    const std::size_t number = all.size() + 1;
-    std::vector<std::string> words = arguments;
-    words.insert(words.end(), extra.begin(), extra.end());
-    const auto has = [&extra](std::string_view name) {
-      return std::any_of(extra.begin(), extra.end(), [name](std::string_view word) {
-        return word.substr(0, word.find('=')) == name;
-      });
-    };
-    try {
-      for (const char *of_all : {"--json", "--threads", "--ensemble", "--version", "--help", "-h"})
-        if (has(of_all))
-          throw std::invalid_argument(std::string(of_all) + ", expected options of one run only");
-      RunOptions &run = all.emplace_back(parse(words, base.run.stop)).run;
-      if (!has("--catalogue") || run.catalogue.find("{run}") != std::string::npos)
-        run.catalogue = numbered(run.catalogue, number);
-      run.series = numbered(run.series, number);
-      run.checkpoint = numbered(run.checkpoint, number);
-      // Runs that had not begun before the interruption have no checkpoint and start anew.
-      run.resume = run.resume && std::ifstream(run.checkpoint);
-      check_replaced(run);
-    } catch (const std::exception &e) {
-      throw std::runtime_error(fmt::format("run {} of the ensemble: {}", number, e.what()));
-    }
-  }
-  return all;
-}
-
-void check_files(const std::vector<Settings> &all) {
-  std::vector<LSM::Output> outputs;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (LSM::Output &output : outputs_of(all[k].run)) {
-      if (all.size() > 1)
-        output.what = fmt::format("run {} of the ensemble: {}", k + 1, output.what);
-      outputs.push_back(std::move(output));
-    }
-  const Settings &any = all.front();
-  const std::string summary = any.summary == "-" ? std::string() : any.summary;
+void check_files(Settings s) {
+  const std::string summary = s.summary == "-" ? std::string() : s.summary;
+  std::vector<LSM::Output> outputs = outputs_of(s.run);
   outputs.push_back({"--json", summary});
   const std::string problem = LSM::bad_outputs(outputs);
   if (!problem.empty()) throw std::invalid_argument(problem);
   std::set<std::string> inputs;
-  for (Settings s : all) {
-    s.inputs.insert(s.inputs.end(), {s.config, s.ensemble});
-    for (const std::string &path : s.inputs)
-      if (!path.empty() && std::ifstream(path)) inputs.insert(LSM::file_identity(path));
-  }
+  s.inputs.push_back(s.config);
+  for (const std::string &path : s.inputs)
+    if (!path.empty() && std::ifstream(path)) inputs.insert(LSM::file_identity(path));
   for (const LSM::Output &output : outputs)
     if (!output.path.empty() && inputs.count(LSM::file_identity(output.path)) > 0)
       throw std::invalid_argument(output.what + " " + output.path +
                                   " is read by this run, expected another name for the output");
-  const std::string kept = LSM::why_kept(summary, is_summary);
-  if (!kept.empty() && !any.run.overwrite) throw std::invalid_argument(kept);
+  const std::string kept = LSM::why_kept(summary, LSM::begins_with("{\n  \"parameters\": {"));
+  if (!kept.empty() && !s.run.overwrite) throw std::invalid_argument(kept);
 }
 
 }  // namespace Slider

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "friction/coulomb.h"
-#include "friction/slip_weakening.h"
 #include "friction/velocity_weakening.h"
 #include "numerics/constants.h"
 #include "files/names.h"
@@ -31,40 +30,32 @@ using LSM::to_string;
 
 /// Schemes of a time step. All but printed are †.
 enum class Scheme {
-  printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
-  semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
-  verlet,         ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
+  printed,  ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
+  verlet,   ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
   /// no inertia: v from the balance of springs, friction and radiation, x by the two-step formula
   /// of Adams and Bashforth, order 2
   adams_bashforth
 };
 
-constexpr std::array<LSM::Named<Scheme>, 4> names_of(Scheme) {
+constexpr std::array<LSM::Named<Scheme>, 3> names_of(Scheme) {
   return {{{Scheme::printed, "printed"},
-           {Scheme::semi_implicit, "semi-implicit"},
            {Scheme::verlet, "verlet"},
            {Scheme::adams_bashforth, "adams-bashforth"}}};
 }
 
 enum class Law {
   velocity_weakening,  ///< Eq. 6
-  coulomb,             ///< static and dynamic friction †
-  slip_weakening       ///< falls linearly with the slip since the block last rested †
+  coulomb              ///< static and dynamic friction †
 };
-constexpr std::array<LSM::Named<Law>, 3> names_of(Law) {
+constexpr std::array<LSM::Named<Law>, 2> names_of(Law) {
   return {{{Law::velocity_weakening, LSM::VelocityWeakening::name},
-           {Law::coulomb, LSM::CoulombStatic::name},
-           {Law::slip_weakening, LSM::SlipWeakening::name}}};
+           {Law::coulomb, LSM::CoulombStatic::name}}};
 }
 
 /// A friction law with its coefficients. The static strength mu is a property of each block.
 struct Friction {
   Law law = Law::velocity_weakening;
-  double dynamic = 1.0;  ///< ratio of dynamic to static strength (not used by Eq. 6)
-  double dc = 1.0;       ///< slip_weakening: slip at which the dynamic strength is reached
-
-  /// Whether the law needs the displacement at which a block last rested.
-  bool needs_rest() const { return law == Law::slip_weakening; }
+  double dynamic = 1.0;  ///< coulomb: ratio of dynamic to static strength
 };
 
 /// A rough surface whose strength varies with displacement †: the strength of a block is drawn anew
@@ -119,12 +110,12 @@ inline double stability_limit(const Parameters &p) {
                               : *std::max_element(p.modes.begin(), p.modes.end());
   if (p.scheme == Scheme::adams_bashforth) return p.radiation / stiffest;
   const double highest = std::sqrt(stiffest / p.mass), damping = p.radiation / p.mass;
-  // v' = v - h damping v - h w^2 x, x' = x + h v'
-  if (p.scheme == Scheme::semi_implicit)
-    return 4.0 / (damping + std::sqrt(damping * damping + 4.0 * highest * highest));
   const double limit = (p.scheme == Scheme::printed ? 0.12 * std::sqrt(4.01) : 2.0) / highest;
   return damping > 0.0 ? std::min(limit, 2.0 / damping) : limit;
 }
+
+constexpr const char *scheme_needs =
+    "--scheme printed needs --coupling chain and --law velocity-weakening, without --radiation";
 
 /// Rejects the value of an option.
 /// \throws std::invalid_argument always, with one line: the option, its value and what is expected
@@ -149,13 +140,14 @@ inline void check(const Parameters &p, bool force) {
   // cells are counted in 64 bits
   if (!std::isfinite(p.landscape.length) || (p.landscape.length < 1e-9 && p.landscape.length != 0))
     refuse("--correlation-length", p.landscape.length, "0, or a finite number of at least 1e-9");
-  for (const auto &[option, value] : {std::pair("--kl", p.kl),
-                                      {"--velocity", p.velocity},
-                                      {"--dt", p.dt},
-                                      {"--slip-distance", p.friction.dc}})
+  for (const auto &[option, value] :
+       {std::pair("--kl", p.kl), {"--velocity", p.velocity}, {"--dt", p.dt}})
     if (!std::isfinite(value) || !(value > 0.0)) refuse(option, value, "a positive finite number");
   if (!(p.friction.dynamic >= 0.0 && p.friction.dynamic <= 1.0))
     refuse("--dynamic-friction", p.friction.dynamic, "at least 0 and at most 1");
+  if (p.scheme == Scheme::printed &&
+      (!p.by_springs() || p.radiation > 0.0 || p.friction.law != Law::velocity_weakening))
+    throw std::invalid_argument(scheme_needs);
   const double limit = stability_limit(p);
   if (p.scheme == Scheme::printed) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)

@@ -49,7 +49,7 @@ class Run {
  public:
   explicit Run(const RunOptions &options)
       : o_(options),
-        chain_(o_.parameters, o_.mu, o_.kernel == Kernel::dense),
+        chain_(o_.parameters, o_.mu, o_.dense),
         filter_(o_.filter),
         outputs_(o_),
         calm_(std::max<std::int64_t>(1, std::llround(leap_calm / o_.parameters.dt))),
@@ -261,7 +261,6 @@ class RuptureRun : public Run {
 /// Starts new files or continues those of a checkpoint.
 void Run::begin() {
   for (const auto &[key, value] : o_.header) settings_.push_back(key + " = " + value);
-  settings_.emplace_back("kernel = active or dense");
   if (o_.resume) {
     state_ = read_checkpoint(o_.checkpoint, settings_);
     if (state_.chain.step > o_.steps)

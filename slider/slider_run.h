@@ -20,12 +20,6 @@
 
 namespace Slider {
 
-/// Which chunks of blocks are stepped: those that may move, or all.
-enum class Kernel { active, dense };
-constexpr std::array<LSM::Named<Kernel>, 2> names_of(Kernel) {
-  return {{{Kernel::active, "active"}, {Kernel::dense, "dense"}}};
-}
-
 /// Definition of an event: a drop of the PE of the whole chain (paper), or a connected set of
 /// sliding blocks † (see slider_ruptures.h).
 enum class Events { pe, ruptures };
@@ -45,8 +39,8 @@ struct RunOptions {
   std::int64_t rupture_memory = 1;
   double leap_speed = 0.0;    ///< leap only while no block is faster than this; 0: no leaps
   bool keep_by_plate = true;  ///< write drops of PE that slip does not explain, see is_by_plate()
-  Kernel kernel = Kernel::active;
-  std::string catalogue;  ///< empty: none
+  bool dense = false;         ///< step all blocks, not only those that may move; for tests
+  std::string catalogue;      ///< empty: none
   bool x_centroid = false, rupture_length = false;
   std::string series;  ///< empty: none
   std::int64_t series_stride = 1;

@@ -123,21 +123,6 @@ std::vector<double> read_modes(const std::string &path, int blocks) {
   return modes;
 }
 
-std::vector<double> read_strengths(const std::string &path, int blocks) {
-  std::vector<double> strengths;
-  const char *const row = "one strength, a number >= 0";
-  for_each_row<1>(path, row, [&](LSM::files::LineReader &in, const std::array<double, 1> &r) {
-    if (!(r[0] >= 0.0)) in.fail(LSM::text::number(r[0]) + ", expected " + row);
-    if (strengths.size() == static_cast<std::size_t>(blocks))
-      in.fail("more strengths, expected " + std::to_string(blocks) + ", one for each block");
-    strengths.push_back(r[0]);
-  });
-  if (strengths.size() != static_cast<std::size_t>(blocks))
-    throw LSM::FileError(path + ": " + std::to_string(strengths.size()) + " strengths, expected " +
-                         std::to_string(blocks) + ", one for each block");
-  return strengths;
-}
-
 std::string named_with_checksum(const std::string &path) {
   char text[16];
   std::snprintf(text, sizeof text, " %08x", LSM::sum_of_file(path).crc32);

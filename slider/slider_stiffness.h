@@ -62,10 +62,6 @@ std::vector<double> modes_of(Coupling coupling, const Strip &strip, int blocks);
 /// \throws LSM::FileError naming file and line
 std::vector<double> read_modes(const std::string &path, int blocks);
 
-/// Reads the strengths of the blocks, one per line; '#' begins a comment.
-/// \throws LSM::FileError
-std::vector<double> read_strengths(const std::string &path, int blocks);
-
 /// Returns the name of a file and the CRC-32 of its content, which identify it in headers.
 /// \throws LSM::FileError
 std::string named_with_checksum(const std::string &path);

@@ -38,8 +38,7 @@ LIBRARIES = ("libgsl-dev libfftw3-dev libfmt-dev liblzma-dev libpugixml-dev libc
              "libjs-dygraphs")
 # Runs on ARM and on this machine. Positions of ruptures depend on sines and logarithms of the C library.
 SLIDERS = {
-    "verlet": "--time 9000", "printed": "--scheme printed --dt 0.01 --time 7000", "implicit": "--scheme semi-implicit --time 9000",
-    "coulomb": "--law coulomb --time 6000", "weakening": "--law slip-weakening --time 9000",
+    "verlet": "--time 9000", "printed": "--scheme printed --dt 0.01 --time 7000", "coulomb": "--law coulomb --time 6000",
     "ruptures": "--events ruptures --columns centroid,length --time 6000", "leaps": "--velocity 1e-4 --leap 1e-3 --time 1e6",
     "long": "--blocks 20000 --time 80 --velocity 1"
 }
@@ -427,7 +426,7 @@ def debian_tests(name):
     return Row(tests=f"`{line}`: {counted(FOLDER / f'{name}.log')}, {took}", fault=f"beside {first}: {fault}", ok=ok and same, **cells)
 
 
-@column("sanitize", "sanitize-thread")
+@column("sanitize")
 def sanitize(name):
     """Folders and environment are those of CMakePresets.json."""
     log = FOLDER / f"{name}.log"
@@ -448,8 +447,8 @@ def mutations(name):
 
 ORDER = (
     "reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-12 debian-12-tests debian-13 debian-13-tests sanitize "
-    "sanitize-thread mutations").split()
-ALONE = ("reference", "aarch64", "sanitize", "sanitize-thread", "mutations")  # not compared with the reference
+    "mutations").split()
+ALONE = ("reference", "aarch64", "sanitize", "mutations")  # not compared with the reference
 
 
 def with_row(page, name, row):

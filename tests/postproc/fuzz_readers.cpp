@@ -133,8 +133,9 @@ void try_catalogue(const std::string &path) {
   for (const LSM::EventRow &event : strict) writer.write(event);
   writer.close();
   std::vector<LSM::EventRow> again;
-  require(!read_catalogue(copy, false, again, info.columns).refused && again.size() == strict.size(),
-          "a copy can be read");
+  require(
+      !read_catalogue(copy, false, again, info.columns).refused && again.size() == strict.size(),
+      "a copy can be read");
   for (std::size_t i = 0; i < strict.size(); ++i) require(same(strict[i], again[i]), "a true copy");
 }
 

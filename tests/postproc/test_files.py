@@ -113,8 +113,6 @@ def test_slider_summary_replaces_only_a_summary(slider, files):
     run(slider, again, "--json s.json")
     run(slider, CHAIN + " --catalogue newer.csv --json s.json")
     assert json.loads(Path("s.json").read_text())["catalogue"] == "newer.csv"
-    run(slider, CHAIN + " --catalogue e.csv --ensemble 2 --json e.json")
-    run(slider, CHAIN + " --catalogue f.csv --ensemble 2 --json e.json")
     Path("s.json").write_text('{"name": "a package"}\n')
     refused(slider, CHAIN + " --catalogue other.csv --json s.json", "s.json: exists already and holds something else")
 

@@ -14,15 +14,13 @@
 
 namespace Slider {
 
-/// Friction of a block that moves, or starts to move, after the given slip.
-inline double friction_of(const Friction &law, double mu, double v, double slip) {
+/// Friction of a block that moves, or starts to move.
+inline double friction_of(const Friction &law, double mu, double v) {
   switch (law.law) {
     case Law::velocity_weakening:
       return LSM::VelocityWeakening::friction(mu, v);
     case Law::coulomb:
       return law.dynamic * mu;
-    case Law::slip_weakening:
-      return LSM::SlipWeakening::strength(mu, law.dynamic * mu, law.dc, slip);
   }
   return mu;
 }
@@ -61,16 +59,23 @@ inline double coupling_force(const Parameters &p, const std::vector<double> &c, 
 
 class ScalarChain {
  public:
-  ScalarChain(const Parameters &p, std::vector<double> mu, bool ledger = false)
-      : p_(p), mu_(std::move(mu)), coupling_(coupling_of(p)), keep_ledger_(ledger) {
+  /// \param euler the scheme is semi-implicit Euler, v += h a, x += h v, with which those of
+  /// slider_cli are compared
+  ScalarChain(const Parameters &p, std::vector<double> mu, bool ledger = false, bool euler = false)
+      : p_(p),
+        mu_(std::move(mu)),
+        coupling_(coupling_of(p)),
+        printed_(p.scheme == Scheme::printed && !euler),
+        verlet_(p.scheme == Scheme::verlet && !euler),
+        keep_ledger_(ledger) {
     u_.assign(mu_.size(), 0.0);
     v_ = u_;
     force_ = u_;
-    rest_ = u_;
     ahead_ = u_;
   }
 
   std::int64_t step() const { return step_; }
+  double time() const { return p_.dt * static_cast<double>(step_); }
   double plate() const { return p_.velocity * p_.dt * static_cast<double>(step_); }
   double pe() const { return pe_; }
   double dpe() const { return dpe_; }
@@ -87,7 +92,6 @@ class ScalarChain {
     step_ = s.step;
     u_ = s.u;
     v_ = s.v;
-    rest_ = s.rest.empty() ? u_ : s.rest;
     ahead_ = s.ahead;
     if (ahead_.empty())
       for (double v : v_) ahead_.push_back(p_.dt * v);
@@ -98,7 +102,6 @@ class ScalarChain {
 
   void set_displacements(const std::vector<double> &u) {
     u_ = u;
-    rest_ = u_;
     pe_ = set_forces();
   }
 
@@ -125,37 +128,32 @@ class ScalarChain {
         continue;
       }
       if (v == 0.0 && force_[i] <= mu_[i]) continue;  // stuck
-      const double push = force_[i] - friction_of(law, mu_[i], v, u_[i] - rest_[i]) - eta * v;
-      if (p_.scheme == Scheme::verlet)
+      const double push = force_[i] - friction_of(law, mu_[i], v) - eta * v;
+      if (verlet_)
         v += half_m * push;
       else
         v += h_m * push;
       if (v < 0.0) v = 0.0;  // no back-slip
-      u_[i] += p_.scheme == Scheme::printed ? half * (v_[i] + v) : h * v;
+      u_[i] += printed_ ? half * (v_[i] + v) : h * v;
       v_[i] = v;
     }
     ++step_;
     const double pe = set_forces();
     if (balances) {
       for (std::size_t i = 0; i < n; ++i) balance_forces(i);
-    } else if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
+    } else if (verlet_ && law.law != Law::velocity_weakening) {
       for (std::size_t i = 0; i < n; ++i) {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
-        // A block that came to rest in the first half of the step has regained its static strength.
-        const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
         v_[i] = std::fmax(
-            0.0, (v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i], slip))) * slower);
+            0.0, (v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i]))) * slower);
       }
-    } else if (p_.scheme == Scheme::verlet) {
+    } else if (verlet_) {
       for (std::size_t i = 0; i < n; ++i)
         v_[i] = larger_root((v_[i] + half_m * force_[i]) * slower, half_m * mu_[i] * slower);
     }
     dpe_ = pe - pe_;
     pe_ = pe;
     if (keep_ledger_) balance(old_plate);
-    if (law.needs_rest())
-      for (std::size_t i = 0; i < n; ++i)
-        if (v_[i] == 0.0) rest_[i] = u_[i];
   }
 
  private:
@@ -168,9 +166,8 @@ class ScalarChain {
       const double slip = u_[i] - saved_u_[i];
       ledger_.plate +=
           p_.kl * 0.5 * ((old_plate - saved_u_[i]) + (plate_now - u_[i])) * (plate_now - old_plate);
-      ledger_.friction += 0.5 * slip *
-                          (friction_of(law, mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
-                           friction_of(law, mu_[i], v_[i], u_[i] - rest_[i]));
+      ledger_.friction +=
+          0.5 * slip * (friction_of(law, mu_[i], saved_v_[i]) + friction_of(law, mu_[i], v_[i]));
       const bool stopped = p_.scheme == Scheme::adams_bashforth && v_[i] == 0.0;
       ledger_.radiated +=
           0.5 * slip * p_.radiation * (saved_v_[i] + (stopped ? saved_v_[i] : v_[i]));
@@ -220,9 +217,8 @@ class ScalarChain {
       }
       mean = sum > 0.0 ? sum_v / sum : 0.5 * (v + last);
     } else {
-      const double slip = slides ? u_[i] - rest_[i] : 0.0;
-      v = std::fmax(0.0, mobility * (f - friction_of(p_.friction, mu, v, slip)));
-      const double last = mobility * (next - friction_of(p_.friction, mu, v, slip + p_.dt * v));
+      v = std::fmax(0.0, mobility * (f - friction_of(p_.friction, mu, v)));
+      const double last = mobility * (next - friction_of(p_.friction, mu, v));
       stops = last < 0.0;
       if (stops) part = v / (v - last);
       mean = stops ? 0.5 * v : 0.5 * (v + last);
@@ -263,10 +259,11 @@ class ScalarChain {
   }
 
   Parameters p_;
-  std::vector<double> mu_, coupling_, u_, v_, force_, rest_, ahead_, old_u_, old_force_;
+  std::vector<double> mu_, coupling_, u_, v_, force_, ahead_, old_u_, old_force_;
   std::vector<double> saved_u_, saved_v_;
-  double stiffness_ = stiffness_alone(p_);
+  bool printed_, verlet_;  // the scheme; neither: Euler, or without inertia
   bool keep_ledger_;
+  double stiffness_ = stiffness_alone(p_);
   EnergyLedger ledger_;
   std::int64_t step_ = 0;
   double pe_ = 0.0, dpe_ = 0.0;

@@ -21,7 +21,6 @@ SwitchingChain::SwitchingChain(const Parameters &p, std::vector<double> mu, Loca
   n_ = mu_.size();
   y_.assign(2 * n_ + 1, 0.0);
   slides_.assign(n_, 0);
-  rest_.assign(n_, 0.0);
   if (scheme == Located::reference) {
     system_ = {&SwitchingChain::derivative, nullptr, 2 * n_ + 1, this};
     stepper_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * n_ + 1));
@@ -51,7 +50,6 @@ void SwitchingChain::set_state(const ChainState &s) {
   std::copy(s.u.begin(), s.u.end(), y_.begin());
   std::copy(s.v.begin(), s.v.end(), y_.begin() + offset(n_));
   for (std::size_t i = 0; i < n_; ++i) slides_[i] = s.v[i] != 0.0;
-  rest_ = s.u;
 }
 
 EnergyLedger SwitchingChain::ledger() const {
@@ -64,7 +62,6 @@ EnergyLedger SwitchingChain::ledger() const {
 
 void SwitchingChain::set_displacements(const std::vector<double> &u) {
   std::copy(u.begin(), u.end(), y_.begin());
-  rest_ = u;
   pe_ = pe_start_ = direct_energy(p_, u, time() * p_.velocity);
 }
 
@@ -108,7 +105,7 @@ void SwitchingChain::derive(double t, const double *y, double *dy) const {
     const double v = y[n_ + i];
     if (slides_[i]) {
       // Stages may overshoot to v < 0 just before the block sticks; the law continues smoothly.
-      const double friction = friction_of(p_.friction, mu_[i], v, y[i] - rest_[i]);
+      const double friction = friction_of(p_.friction, mu_[i], v);
       dy[i] = v;
       dy[n_ + i] = (force(y, i, plate) - friction - p_.radiation * v) / p_.mass;
       loss += friction * v;
@@ -160,7 +157,6 @@ double SwitchingChain::passed(const std::vector<double> &y, double t, std::size_
 
 void SwitchingChain::flip(std::size_t i) {
   slides_[i] = !slides_[i];
-  rest_[i] = y_[i];
   y_[n_ + i] = 0.0;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Schemes that locate every change between stick and slip in time, with which those of slider_cli
-// are compared.
+// Schemes with which those of slider_cli are compared: those that locate every change between stick
+// and slip in time, and semi-implicit Euler.
 #ifndef LSM_TESTS_SWITCHING_CHAIN_H
 #define LSM_TESTS_SWITCHING_CHAIN_H
 
@@ -61,8 +61,7 @@ class SwitchingChain {
   Parameters p_;
   Located scheme_;
   std::vector<double> mu_, coupling_;
-  std::vector<double> y_;     // u, v of every block, then the friction loss
-  std::vector<double> rest_;  // where each block last rested
+  std::vector<double> y_;  // u, v of every block, then the friction loss
   std::vector<double> trial_, middle_, error_;
   std::vector<double> k1_, k2_, k3_, k4_, stage_;
   std::vector<std::uint8_t> slides_;
@@ -95,11 +94,17 @@ class StartedChain : public Chain {
   Parameters p_;
 };
 
-/// A scheme of slider_cli, or one of those above that locate switches.
-using AnyScheme = std::variant<Scheme, Located>;
+/// Semi-implicit Euler, in the plain loop over all blocks.
+struct Euler {
+  bool operator==(const Euler &) const { return true; }
+};
+
+/// A scheme of slider_cli, or one of those above.
+using AnyScheme = std::variant<Scheme, Located, Euler>;
 
 inline const char *name_of(const AnyScheme &scheme) {
   if (const auto *stepped = std::get_if<Scheme>(&scheme)) return to_string(*stepped);
+  if (std::holds_alternative<Euler>(scheme)) return "semi-implicit";
   return std::get<Located>(scheme) == Located::rk4 ? "rk4" : "reference";
 }
 
@@ -108,6 +113,10 @@ template <class Work>
 auto with_chain(Parameters p, std::vector<double> mu, const AnyScheme &scheme, Work &&work) {
   if (const auto *located = std::get_if<Located>(&scheme)) {
     SwitchingChain chain(p, std::move(mu), *located);
+    return work(chain);
+  }
+  if (std::holds_alternative<Euler>(scheme)) {
+    ScalarChain chain(p, std::move(mu), false, true);
     return work(chain);
   }
   p.scheme = std::get<Scheme>(scheme);

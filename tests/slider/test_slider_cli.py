@@ -21,11 +21,9 @@ SHORT_INI = "blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nste
 
 def test_header_keys(slider):
     """What headers state is in the table of all keys."""
-    Path("mu.txt").write_text("0.6\n" * 64)
     shared = "--blocks 64 --kl 0.1 --time 2000 --warmup 0"
-    for number, more in enumerate(
-        ("", "--events ruptures --rupture-gap 0.2", "--law slip-weakening --slip-distance 0.1 --dynamic-friction 0.5", "--friction-file mu.txt",
-         "--correlation-length 4 --without-plate-drops --keep-nonpositive", "--leap 0.001", "--radiation 0.1")):
+    for number, more in enumerate(("", "--events ruptures --rupture-gap 0.2", "--law coulomb --dynamic-friction 0.5",
+                                   "--correlation-length 4 --without-plate-drops --keep-nonpositive", "--leap 0.001", "--radiation 0.1")):
         run(slider, f"{shared} {more} --catalogue c{number}.csv --pe-series c{number}.pe")
         assert not unknown_keys(header(f"c{number}.csv"), read_series(f"c{number}.pe")[0]), more
 
@@ -51,18 +49,6 @@ def interrupted(slider, part, times, signals=(signal.SIGKILL,), checkpoint="part
         more = "--resume" if Path(checkpoint).exists() else "--overwrite"
         count += interrupt(slider, part, more, when=changed(checkpoint), by=signals[n % len(signals)])
     assert count >= 1, "the run was never interrupted"
-
-
-def test_kernels(ran):
-    for scheme in "semi-implicit", "verlet":
-        for picker in "exponential", "literal":
-            for kernel in "active", "dense":
-                ran(SHORT, "--steps 500000 --scheme", scheme, "--picker", picker, "--kernel", kernel, f"--catalogue {kernel}.csv",
-                    "--columns centroid,length")
-            same("active.csv", "dense.csv")
-    for kernel in "active", "dense":
-        ran(SHORT, "--dt 0.01 --steps 1000000 --scheme printed --kernel", kernel, f"--catalogue {kernel}.csv")
-    same("active.csv", "dense.csv")
 
 
 PART = "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 50000"
@@ -128,25 +114,13 @@ def test_a_checkpoint_of_another_program_version(slider, ran):
     ran(SHORT, "--steps 200000", PART)
     for key, value, said in (("velocity", "0.04", "checkpoint has 'velocity = 0.04', expected 'velocity = 0.05'"), ("program", "slider_cli 0.9", "")):
         state = re.sub(rf"(?m)^{key} = .*$".encode(), f"{key} = {value}".encode(), Path("part.chk").read_bytes().split(b"\n", 1)[1])
-        Path("other.chk").write_bytes(f"slider_cli checkpoint 6 {zlib.crc32(state)}\n".encode() + state)
+        Path("other.chk").write_bytes(f"slider_cli checkpoint 7 {zlib.crc32(state)}\n".encode() + state)
         words = f"{SHORT} --steps 400000 --resume {PART.replace('part.chk', 'other.chk')}"
         if said:
             refused(slider, words, said)
         else:
             run(slider, words)
     same("whole.csv", "part.csv")
-
-
-def test_resume_other_kernel(slider, ran):
-    """A run killed with one kernel can be resumed with either."""
-    settings = "--velocity 0.05 --blocks 24 --dt 0.05 --warmup 0 --seed 3 --steps 100000 "
-    part = "--catalogue part.csv --checkpoint part.chk "
-    ran(settings, "--kernel dense --catalogue whole.csv")
-    interrupted(slider, settings + part + "--kernel dense --checkpoint-interval 1000", 1)
-    ran(settings, part, "--kernel dense --checkpoint-interval 1000 --resume")
-    same("whole.csv", "part.csv", 5)
-    ran(settings, part, "--kernel active --resume")
-    same("whole.csv", "part.csv", 5)
 
 
 @pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
@@ -157,44 +131,6 @@ def test_interrupted(slider, ran, by):
     ran(settings, PART, "--resume")
     same("whole.csv", "part.csv")
     same_bytes("whole.pe", "part.pe")
-
-
-def test_ensemble(slider, ran, no):
-    ran(SHORT, "--steps 300000 --ensemble 3 --threads 2 --catalogue run{run}.csv")
-    for k in 1, 2, 3:
-        ran(SHORT, "--steps 300000 --seed", k + 2, "--catalogue alone.csv")
-        same(f"run{k}.csv", "alone.csv", 5)
-    # An ensemble stopped by a signal while several runs are under way continues as if uninterrupted.
-    stopped = (SHORT + "--steps 300000 --ensemble 3 --threads 3 --catalogue part{run}.csv --checkpoint part{run}.chk "
-               "--checkpoint-interval 1000")
-    for _ in range(5):
-        for path in Path().glob("part*"):
-            path.unlink()
-        if interrupt(slider, stopped, when=lambda: all(Path(f"part{k}.chk").exists() for k in (1, 2, 3)), by=signal.SIGTERM):
-            break
-    else:
-        pytest.fail("the ensemble was never interrupted")
-    ran(stopped, "--resume")
-    for k in 1, 2, 3:
-        same(f"run{k}.csv", f"part{k}.csv", 5)
-    Path("sets.txt").write_text("# two stiffnesses\n--kl 0.02\n--kl 0.05 --catalogue named.csv\n")
-    ran(SHORT, "--steps 300000 --ensemble sets.txt --catalogue set.csv --json all.json")
-    ran(SHORT, "--steps 300000 --kl 0.05 --catalogue alone.csv")
-    same("named.csv", "alone.csv", 5)
-    Path("equal.txt").write_text("--seed 1\n--catalogue=equal.csv --seed 2\n")
-    ran(SHORT, "--steps 300000 --ensemble equal.txt --catalogue of.csv")
-    assert header("equal.csv")["seed"] == "2"
-    assert header("set-1.csv")["kl"] == "0.02"
-    Path("marked.txt").write_text("--seed 1\n--seed 2 --catalogue of_{run}.csv\n")
-    ran(SHORT, "--steps 300000 --ensemble marked.txt --catalogue of.csv --overwrite")
-    assert header("of_2.csv")["seed"] == "2"
-    for option in "--version", "--json=all.json", "--threads 2", "--ensemble 2":
-        Path("common.txt").write_text(f"--seed 1\n{option}\n")
-        no("--ensemble common.txt", f"run 2 of the ensemble: {option.split('=')[0].split()[0]}, expected options of one run only")
-    Path("wrong.txt").write_text("--seed 1\n--kl -1\n")
-    no("--ensemble wrong.txt", "run 2 of the ensemble: .*--kl")
-    Path("twice.txt").write_text("--catalogue bad.csv --seed 1\n--catalogue bad.csv --seed 2\n")
-    no("--ensemble twice.txt", "are the same file")
 
 
 def test_laws(ran):
@@ -211,88 +147,108 @@ def test_laws(ran):
     # Coulomb friction: loading over twice the drop of strength, D = 0.8 - 0.6, then a little more than half
     # an oscillation: (Fs - Fd) w / (K V)
     K, D = 0.05, 0.2
-    for scheme in "verlet", "semi-implicit":
-        period, largest = slips(f"--law coulomb --dynamic-friction 0.75 --kl {K} --time 80000 --dt 0.05 --scheme {scheme}")
-        theory = 2 * D / (K * V) + 2 / math.sqrt(K) * (math.pi - math.atan2(D * math.sqrt(K), K * V))
-        assert period == pytest.approx(theory, rel=1e-4), scheme
-        # PE falls by (0.8^2 - 0.4^2) / (2 K) = 4.8.
-        assert largest > 4, scheme
+    period, largest = slips(f"--law coulomb --dynamic-friction 0.75 --kl {K} --time 80000 --dt 0.05")
+    theory = 2 * D / (K * V) + 2 / math.sqrt(K) * (math.pi - math.atan2(D * math.sqrt(K), K * V))
+    assert period == pytest.approx(theory, rel=1e-4)
+    # PE falls by (0.8^2 - 0.4^2) / (2 K) = 4.8.
+    assert largest > 4
     # Without a drop of strength the block follows the plate and oscillates by V / w: PE falls by no more than
     # 2 Fs V / w each time.
     assert slips("--law coulomb --dynamic-friction 1 --kl 0.05 --time 20000 --dt 0.05")[1] < 1.01 * 2 * Fs * V / math.sqrt(K)
-    # Slip weakening by W = 0.8 (1 - 0.75) / 0.5 = 0.4 per slip. Above this stiffness a slip oscillates about
-    # a slow drift, y = K V / (K - W) (t - sin(w t) / w) with w^2 = K - W, and PE falls while the block is
-    # faster than the plate; below it a slip is that of the whole drop.
-    W = 0.4
-    for K in 0.5, 0.8:
-        _, stable = slips(f"--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl {K} --time 4000 --dt 0.01")
-        w = math.sqrt(K - W)
-        a = math.atan2(math.sqrt(1 - W * W / K / K), W / K)
-
-        def force(phase):
-            return Fs + K * V * (phase - K / (K - W) * (phase - math.sin(phase))) / w
-
-        assert stable == pytest.approx((force(a)**2 - force(2 * math.pi - a)**2) / (2 * K), rel=0.01), K
-    period, largest = slips("--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05")
-    # The distance D follows from the drop and the fracture energy 0.2 x 0.5 / 2: 0.2 D - K D^2 / 2 = 0.05.
-    assert period == pytest.approx((0.2 + math.sqrt(0.2**2 - 2 * 0.1 * 0.05)) / 0.1 / V, rel=0.02)
-    assert largest > 100 * stable, "slips below the critical stiffness are no larger than above"
 
 
-def test_laws_of_a_chain(slider, ran, no):
+def test_laws_of_a_chain(slider, ran):
     # Eq. 6 is the default.
     ran(SHORT, "--steps 100000 --catalogue default.csv")
     ran(SHORT, "--steps 100000 --law velocity-weakening --catalogue named.csv")
     same("default.csv", "named.csv")
     # A run is interrupted and resumed; the header has the law.
-    for law in "coulomb", "slip-weakening":
-        chain = SHORT + f"--law {law} --steps 200000 --scheme verlet "
-        ran(chain, "--catalogue active.csv --checkpoint whole.chk")
-        ran(chain, "--catalogue dense.csv --kernel dense")
-        same("active.csv", "dense.csv")
-        assert header("active.csv")["law"] == law
-        part = chain + "--catalogue part.csv --checkpoint part.chk --checkpoint-interval 20000"
-        Path("part.chk").unlink(missing_ok=True)
-        interrupt(slider, "--overwrite", part, when=Path("part.chk").exists, by=signal.SIGINT)
-        ran(part, "--resume")
-        same("active.csv", "part.csv")
-    no("--law rate-state-ageing", "--law = 'rate-state-ageing', expected velocity-weakening, coulomb or slip-weakening")
-    no("--dynamic-friction 0.5", "--dynamic-friction needs --law coulomb or slip-weakening")
-    no("--law coulomb --slip-distance 0.5", "--slip-distance needs --law slip-weakening")
-    no("--law coulomb --dynamic-friction 1.5", "--dynamic-friction = 1.5, expected at least 0 and at most 1")
-    no("--law slip-weakening --slip-distance 0", "--slip-distance = 0, expected a positive")
+    chain = SHORT + "--law coulomb --steps 200000 "
+    ran(chain, "--catalogue whole.csv --checkpoint whole.chk")
+    assert header("whole.csv")["law"] == "coulomb"
+    part = chain + "--catalogue part.csv --checkpoint part.chk --checkpoint-interval 20000"
+    interrupt(slider, "--overwrite", part, when=Path("part.chk").exists, by=signal.SIGINT)
+    ran(part, "--resume")
+    same("whole.csv", "part.csv")
 
 
-WHOLE = "expected a whole number from 0 to"
-BAD = [("--frobnicate 3", "frobnicate"), ("--kc -1", "--kc = -1, expected"), ("--kl 0", "--kl = 0, expected"), ("--mass nan", "--mass"),
-       ("--velocity -0.01", "--velocity"), ("--blocks 0", "--blocks"), ("--blocks many", "--blocks"), ("--steps 10.5 --time 1", "--steps"),
-       ("--dt 1.5", "--dt = 1.5, expected at most 0.998"), ("--scheme printed --dt 0.12", "--dt = 0.12, expected less than 0.12"),
-       ("--scheme euler", "--scheme = 'euler', expected printed"), ("--picker best", "--picker = 'best', expected"),
-       ("--picker-lambda 1", "--picker-lambda = 1, expected"), ("--friction-range 1.0 0.5", "--friction-range"),
-       ("--friction-range 0.8", "--friction-range: .* 2 required"), ("--friction-range 0.8 0.9 1", "--friction-range: .* 2 required"),
-       ("--catalogue no/such/folder/c.csv", "no/such/folder"), ("--pe-series no/such/folder/pe.txt", "no/such/folder"),
-       ("--checkpoint no/such/folder/c.chk", "no/such/folder"), ("--json no/such/folder/s.json", "no/such/folder"),
-       ("--resume", "--resume requires --checkpoint"), ("--paper --scheme verlet", "--paper"),
-       ("--friction-range 0.5 1.0 --friction-range 0.8 0.7", "--friction-range"), ("--config none.ini", "none.ini"),
-       ("--config /bin/sh", "/bin/sh: not a text file"), ("--events slips", "--events = 'slips', expected pe or ruptures"),
-       ("--rupture-gap 1", "--rupture-gap needs --events ruptures"), ("--events ruptures --rupture-gap -1", "--rupture-gap = -1, expected"),
-       ("--events ruptures --rupture-gap nan", "--rupture-gap = nan, expected"), ("--leap -1", "--leap = -1, expected a finite number >= 0"),
-       ("--leap nan", "--leap = nan, expected"), ("--kernel scalar", "--kernel = 'scalar', expected active or dense"),
-       *(([f"--{name}={number}"], f"{name}: {WHOLE} {most}, not '{number}'") for name, most in (("seed", 2**64 - 1), ("threads", 4096))
-         for number in ("-1", "18446744073709551616", "1e3", "0x10", " 7"))]
-BAD_FILES = [(b"blocsk = 12\n", "blocsk"), (b"seed = 3\ndt = 0.05\nseed = 4\n", "wrong.ini:3: 'seed' given twice, expected once"),
-             (b"seed = 3\nseed=3\n", "wrong.ini:2: 'seed' given twice, expected once"),
-             (b"steps = 100 200\n", "wrong.ini:1: 'steps' is '100 200', expected one value"), (b"seed = -1\n", "not '-1'"),
-             (b"\xef\xbb\xbfseed = 1\n", "wrong.ini: begins with a byte order mark"), (b"s\0e\0e\0d\0", "wrong.ini: not a text file"),
-             (gzip.compress(b"seed = 1\n"), "wrong.ini: compressed by gzip, expected a file that is not")]
+# What is refused: the arguments, or the text of a configuration or stiffness file, and what the one line of error says.
+BAD = """
+    --frobnicate 3                                 | frobnicate
+    --kc -1                                        | --kc = -1, expected
+    --kl 0                                         | --kl = 0, expected
+    --mass nan                                     | --mass = nan, expected
+    --velocity -0.01                               | --velocity = -0.01, expected
+    --blocks 0                                     | --blocks = 0, expected
+    --blocks many                                  | --blocks
+    --steps 10.5 --time 1                          | --steps
+    --dt 1.5                                       | --dt = 1.5, expected at most 0.998
+    --scheme printed --dt 0.12                     | --dt = 0.12, expected less than 0.12
+    --scheme printed --law coulomb                 | --scheme printed needs --coupling chain and --law velocity-weakening, without --radiation
+    --scheme printed --radiation 0.1               | --scheme printed needs
+    --scheme printed --coupling inplane            | --scheme printed needs
+    --scheme euler                                 | --scheme = 'euler', expected printed, verlet or adams-bashforth
+    --scheme adams-bashforth                       | --scheme adams-bashforth needs --mass 0
+    --paper --scheme verlet                        | --paper
+    --picker best                                  | --picker = 'best', expected
+    --picker-lambda 1                              | --picker-lambda = 1, expected
+    --friction-range 1.0 0.5                       | --friction-range = 1 0.5, expected
+    --friction-range 0.8                           | --friction-range: .* 2 required
+    --law rate-state-ageing                        | --law = 'rate-state-ageing', expected velocity-weakening or coulomb
+    --dynamic-friction 0.5                         | --dynamic-friction needs --law coulomb
+    --law coulomb --dynamic-friction 1.5           | --dynamic-friction = 1.5, expected at least 0 and at most 1
+    --correlation-length nan                       | --correlation-length = nan, expected 0, or a finite number of at least 1e-9
+    --correlation-length 1e-19                     | --correlation-length = 1e-19, expected 0
+    --radiation -1                                 | --radiation = -1, expected a finite number >= 0
+    --radiation 10 --mass 0.1                      | --dt = 0.05, expected at most 0.02
+    --mass 0                                       | --mass = 0, expected a positive number, or --radiation
+    --mass 0 --radiation 1 --scheme verlet         | --scheme = verlet, expected adams-bashforth with --mass 0
+    --mass 0 --radiation 1 --dt 0.5                | --dt = 0.5, expected at most 0.249
+    --coupling none.csv                            | --coupling = 'none.csv', expected chain, antiplane or inplane, or a readable file
+    --coupling antiplane --kl 0.1 --width 5        | --(kl|width)
+    --coupling inplane --width -5                  | --width = -5, expected a positive finite number
+    --coupling inplane --kc 0                      | --kc = 0, expected a positive finite number
+    --width 5                                      | --width needs --coupling antiplane or inplane
+    --leap -1                                      | --leap = -1, expected a finite number >= 0
+    --leap 1e-3 --radiation 0.1                    | --leap needs --coupling chain without
+    --leap 1e-3 --coupling antiplane               | --leap needs --coupling chain without
+    --leap 1e-3 --correlation-length 1             | --leap needs --coupling chain without
+    --leap 1e-3 --events ruptures --rupture-gap 51 | --rupture-gap = 51, expected at most 50 with --leap
+    --events slips                                 | --events = 'slips', expected pe or ruptures
+    --events ruptures --rupture-gap -1             | --rupture-gap = -1, expected
+    --events ruptures --without-plate-drops        | --without-plate-drops needs --events pe
+    --rupture-gap 1                                | --rupture-gap needs --events ruptures
+    --catalogue no/such/folder/c.csv               | no/such/folder
+    --pe-series no/such/folder/pe.txt              | no/such/folder
+    --checkpoint no/such/folder/c.chk              | no/such/folder
+    --json no/such/folder/s.json                   | no/such/folder
+    --resume                                       | --resume requires --checkpoint
+    --config none.ini                              | none.ini
+    --config /bin/sh                               | /bin/sh: not a text file
+    --seed=-1                                      | seed: expected a whole number from 0 to 18446744073709551615, not '-1'
+    --seed=18446744073709551616                    | seed: expected a whole number from 0 to 18446744073709551615
+    --seed=1e3                                     | seed: expected a whole number from 0 to 18446744073709551615, not '1e3'
+"""
+BAD_FILES = [("--config", b"blocsk = 12\n", "blocsk"), ("--config", b"seed = 3\ndt = 0.05\nseed=4\n", "wrong:3: 'seed' given twice, expected once"),
+             ("--config", b"steps = 100 200\n", "wrong:1: 'steps' is '100 200', expected one value"), ("--config", b"seed = -1\n", "not '-1'"),
+             ("--config", b"\xef\xbb\xbfseed = 1\n", "wrong: begins with a byte order mark"), ("--config", b"s\0e\0e\0d\0", "wrong: not a text file"),
+             ("--config", gzip.compress(b"seed = 1\n"), "wrong: compressed by gzip, expected a file that is not"),
+             ("--coupling", b"0,1\n0.5\n", "wrong:2: '0.5', expected wavenumber,stiffness"),
+             ("--coupling", b"0.1,1\n4,2\n", "wrong:1: wavenumber 0.1"), ("--coupling", b"0,1\n2,2\n1,2\n", "wrong:3: wavenumber 1"),
+             ("--coupling", b"0,1\n4,-2\n", "wrong:2: .*stiffness -2"),
+             ("--coupling", b"0,1\n3,2\n", "wrong: ends at wavenumber 3, expected lines up to pi"), ("--coupling", b"", "ends at wavenumber none"),
+             ("--kl 0.1 --coupling", b"0,1\n4,2\n", "--kl and --coupling wrong exclude each other"),
+             ("--width 10 --coupling", b"0,1\n4,2\n", "--width needs --coupling antiplane or inplane"),
+             ("--json wrong --coupling", b"0,1\n4,2\n", "is read by this run")]
 
 
-def test_bad_input(ran, no):
-    for arguments, pattern in BAD:
-        no(arguments, pattern)
-    for text, pattern in BAD_FILES:
-        Path("wrong.ini").write_bytes(text)
-        no("--config wrong.ini", pattern)
+def test_bad_input(no):
+    for line in BAD.strip().splitlines():
+        arguments, said = map(str.strip, line.split(" | "))
+        no(arguments, said)
+    for option, text, said in BAD_FILES:
+        Path("wrong").write_bytes(text)
+        no(f"{option} wrong", said)
 
 
 def test_bad_steps(ran):
@@ -319,7 +275,7 @@ def test_header(ran):
     assert f'"events": {len(rows("c.csv"))}' in in_json
 
 
-def test_drops_that_are_no_slip(ran, no):
+def test_drops_that_are_no_slip(ran):
     """Of all drops of PE, --without-plate-drops leaves out those due to the plate, and --keep-nonpositive includes those without a size."""
     run_of_many = (SHORT, "--steps 600000 --picker-memory-time 1 --json - --catalogue")
     every, slips, kept = (json.loads(ran(*run_of_many, f"{name}.csv", *more).out)
@@ -329,7 +285,6 @@ def test_drops_that_are_no_slip(ran, no):
     assert header("slips.csv")["plate_drops"] == "left out" and "plate_drops" not in header("every.csv")
     assert (header("kept.csv")["keep_nonpositive"], header("every.csv")["keep_nonpositive"]) == ("yes", "no")
     assert kept["events"] >= every["events"]
-    no("--without-plate-drops --events ruptures", "--without-plate-drops needs --events pe")
 
 
 def test_paper(slider, ran):
@@ -343,7 +298,6 @@ def test_paper(slider, ran):
 def test_overwrite(slider):
     """Without --overwrite no file with content is replaced, and a refused run leaves no file."""
     settings = SHORT + "--steps 300000 "
-    ensemble = "--ensemble 3 --catalogue r{run}.csv --checkpoint r{run}.chk "
 
     def kept(arguments, pattern):
         refused(slider, settings + arguments, pattern)
@@ -361,17 +315,6 @@ def test_overwrite(slider):
     assert Path("a.csv").read_bytes() != first, "--overwrite did not replace the catalogue"
     run(slider, settings, "--catalogue a.csv --overwrite")
     assert Path("a.csv").read_bytes() == first
-    # An ensemble checks all files before the first run; --resume without a checkpoint starts anew.
-    run(slider, settings, ensemble)
-    for name in "r1.csv", "r1.chk", "r2.chk":
-        os.remove(name)
-    kept(ensemble, "run 2 of the ensemble: r2.csv: exists")
-    kept(ensemble + "--resume", "run 2 of the ensemble: r2.csv: exists")
-    second, third = Path("r2.csv").read_bytes(), Path("r3.csv").read_bytes()
-    run(slider, settings, ensemble, "--resume --overwrite")
-    assert Path("r2.csv").read_bytes() == second and Path("r3.csv").read_bytes() == third
-    assert len(rows("r2.csv")) >= 5 and len(rows("r3.csv")) >= 5
-    assert os.path.getsize("r1.csv") > 0, "run 1 did not start"
     # Empty files and devices are no reason to refuse.
     Path("empty.csv").touch()
     run(slider, settings, "--catalogue empty.csv --pe-series /dev/null")
@@ -435,16 +378,14 @@ def test_outputs(slider, work):
     here.mkdir()
     os.chdir(here)
     Path("s.ini").write_text("blocks = 16\n")
-    Path("runs.txt").write_text("--seed 1\n--seed 2\n")
     os.symlink("a.csv", "link.csv")
     os.link("s.ini", "hard.csv")
     for arguments in ("--catalogue a.csv --pe-series a.csv", "--catalogue a.csv --pe-series ./a.csv", "--catalogue a.csv --pe-series ../here/a.csv",
                       f"--catalogue a.csv --checkpoint {here}/a.csv", "--catalogue a.csv --json a.csv", "--catalogue link.csv --json a.csv",
-                      "--pe-series a --checkpoint a", "--checkpoint x --json x", "--ensemble 2 --catalogue a.csv --json a-1.csv",
-                      "--ensemble 2 --catalogue a-1.csv --pe-series a{run}-1.csv --catalogue a{run}-1.csv"):
+                      "--pe-series a --checkpoint a", "--checkpoint x --json x"):
         for more in "", " --overwrite":
             refused(slider, "--blocks 16 --time 100 " + arguments + more, "are the same file")
-    for arguments in "--config s.ini --catalogue hard.csv --overwrite", "--config s.ini --json s.ini", "--ensemble runs.txt --json ./runs.txt":
+    for arguments in "--config s.ini --catalogue hard.csv --overwrite", "--config s.ini --json s.ini":
         refused(slider, "--blocks 16 --time 100 " + arguments, "is read by this run")
     refused(slider, "--blocks 16 --time 100 --catalogue a.csv.new", "reserved for temporary files")
 
@@ -473,24 +414,10 @@ def test_ruptures(slider, ran):
     assert not any(key.startswith(("events", "rupture")) for key in header("pe.csv")), "the header of pe events has changed"
     ran(SHORT, "--steps 300000 --events pe --catalogue pe2.csv")
     same("pe.csv", "pe2.csv")
-    # Both kernels agree, also with ruptures that are connected across gaps in time.
-    for more in "", "--rupture-gap 0.5", "--scheme semi-implicit", "--scheme printed --dt 0.01":
-        for kernel in "active", "dense":
-            ran(SHORT, "--events ruptures --columns centroid,length --steps 300000", more, "--kernel", kernel, f"--catalogue {kernel}.csv")
-        same("active.csv", "dense.csv", 100)
     # Small ruptures are left out.
     ran(SHORT, "--steps 300000 --events ruptures --min-size 0.5 --catalogue large.csv")
     large = [row.split(",", 1)[1] for row in rows("r.csv") if float(row.split(",")[5]) >= 0.5]
     assert large and large == [row.split(",", 1)[1] for row in rows("large.csv")]
-
-
-@pytest.mark.parametrize("events", ["pe", "ruptures"])
-def test_centroids_are_on_the_ring(ran, events):
-    """Ruptures that are symmetric about block 0 are at 0, and not at the end of the ring."""
-    Path("mirrored.txt").write_text("\n".join(str(0.5 + 0.002 * min(i, 20 - i)**2 + 0.01 * (min(i, 20 - i) * 7 % 5)) for i in range(20)))
-    ran("--blocks 20 --velocity 0.05 --warmup 0 --steps 400000 --friction-file mirrored.txt --columns centroid --events", events, "--catalogue c.csv")
-    places = [float(row["x_centroid"]) for row in table("c.csv")]
-    assert len(places) > 30 and min(places) < 0.01 and max(places) < 20
 
 
 def test_a_full_device_loses_no_summary_in_silence(slider):
@@ -534,8 +461,6 @@ SLOW = "--velocity 1e-3 --warmup 0 --seed 3 --time 250000 --leap 1e-3 "
 
 def test_leap(ran):
     ran(SLOW, "--blocks 256 --catalogue active.csv --json leap.json")
-    ran(SLOW, "--blocks 256 --catalogue dense.csv --kernel dense")
-    same("active.csv", "dense.csv")
     assert header("active.csv")["leap"] == "0.001" and header("active.csv")["leap_calm"] == "50"
     number = dict(item for item in everything(json.loads(Path("leap.json").read_text())))
     assert number["leaps"] >= 20
@@ -546,9 +471,6 @@ def test_leap(ran):
     same("none.csv", "off.csv")
     same_bytes("none.chk", "off.chk")
     assert "leap" not in Path("none.csv").read_text() + Path("none.json").read_text(), "a run without leaps speaks of them"
-    ran(SLOW, "--blocks 256 --ensemble 2 --catalogue run{run}.csv")
-    ran(SLOW, "--blocks 256 --seed 4 --catalogue alone.csv")
-    same("run2.csv", "alone.csv", 5)
 
 
 def everything(found):
@@ -559,12 +481,11 @@ def everything(found):
 
 
 def test_leap_of_other_laws(ran):
-    """Leaps with other schemes and laws. Under Coulomb friction without a drop nothing creeps: leaps end where a block starts."""
-    for way in ("--scheme semi-implicit", "--scheme printed --dt 0.01 --velocity 1e-2 --time 25000", "--law coulomb",
-                "--law coulomb --dynamic-friction 1", "--law slip-weakening", "--law slip-weakening --slip-distance 0.5"):
-        ran(SLOW, "--blocks 96", way, "--catalogue active.csv")
-        ran(SLOW, "--blocks 96", way, "--catalogue dense.csv --kernel dense")
-        same("active.csv", "dense.csv", 0 if way.endswith("friction 1") else 3)
+    """Leaps with another scheme and law. Under Coulomb friction without a drop nothing creeps: leaps end where a block starts."""
+    for way, least in (("--scheme printed --dt 0.01 --velocity 1e-2 --time 25000", 3), ("--law coulomb", 3), ("--law coulomb --dynamic-friction 1",
+                                                                                                              0)):
+        ran(SLOW, "--blocks 96", way, "--catalogue c.csv")
+        assert len(rows("c.csv")) >= least, way
 
 
 @pytest.mark.parametrize("events", ["pe", "ruptures"])

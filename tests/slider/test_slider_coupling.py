@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The program slider_cli: coupling of the blocks, radiation, strengths of each block."""
+"""The program slider_cli: coupling of the blocks, radiation."""
 import json
 import math
 import re
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from data_files import header, rows, same_bytes, table
-from programs import INPUTS, changed, interrupt, refused, run
+from programs import INPUTS, changed, interrupt, run
 
 SHORT = "--blocks 64 --kl 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 200000 "
 
@@ -16,11 +16,6 @@ SHORT = "--blocks 64 --kl 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 20000
 @pytest.fixture
 def ran(slider):
     return lambda *arguments, **more: run(slider, "--overwrite", *arguments, **more)
-
-
-@pytest.fixture
-def no(slider):
-    return lambda arguments, pattern: refused(slider, "--overwrite --catalogue bad.csv --blocks 16 --time 100 " + arguments, pattern)
 
 
 def test_header_has_what_couples(ran):
@@ -36,7 +31,7 @@ def test_header_has_what_couples(ran):
     assert not {"coupling", "radiation", "width"} & set(header("d.csv"))
 
 
-def test_file_of_stiffness(ran, no):
+def test_file_of_stiffness(ran):
     """The stiffness of the springs, given as modes, gives the same chain."""
     blocks, kl = 64, 0.05
     lines = [f"{2 * math.pi * n / blocks:.17g},{2 - 2 * math.cos(2 * math.pi * n / blocks) + kl:.17g}" for n in range(blocks // 2 + 1)]
@@ -50,51 +45,6 @@ def test_file_of_stiffness(ran, no):
     for a, b in zip(chain, modes):
         assert a["step_start"] == b["step_start"] and float(a["size"]) == pytest.approx(float(b["size"]), rel=1e-6)
     assert header("modes.csv")["coupling"].startswith("springs.csv ")
-    no("--coupling springs.csv --kl 0.1", "--kl and --coupling springs.csv exclude each other")
-    no("--coupling springs.csv --width 10", "--width needs --coupling antiplane or inplane")
-    no("--coupling none.csv", "--coupling = 'none.csv', expected chain, antiplane or inplane, or a readable file")
-    no("--coupling springs.csv --json springs.csv", "is read by this run")
-    for text, said in (("0,1\n0.5\n", "bad.txt:2: '0.5', expected wavenumber,stiffness"), ("0.1,1\n4,2\n", "bad.txt:1: wavenumber 0.1"),
-                       ("0,1\n2,2\n1,2\n", "bad.txt:3: wavenumber 1"), ("0,1\n4,-2\n", "bad.txt:2: .*stiffness -2"),
-                       ("0,1\n3,2\n", "bad.txt: ends at wavenumber 3, expected lines up to pi"), ("", "ends at wavenumber none")):
-        Path("bad.txt").write_text(text)
-        no("--coupling bad.txt", said)
-
-
-def test_strength_of_each_block(ran, no):
-    strengths = [0.5 + 0.5 * (n % 7) / 7 for n in range(64)]
-    Path("mu.txt").write_text("# an asperity\n" + "\n".join(f"{s:.17g}" for s in strengths) + "\n")
-    ran(SHORT, "--friction-file mu.txt --catalogue file.csv")
-    assert header("file.csv")["friction_file"].startswith("mu.txt ")
-    # The weakest block starts first, when the leaf spring pulls with its strength.
-    ran(SHORT, "--friction-file mu.txt --events ruptures --catalogue first.csv")
-    first = min(float(row["t_start"]) for row in table("first.csv"))
-    assert first == pytest.approx(min(strengths) / (0.05 * 0.05), abs=0.1)
-    for text, said in (("0.5\n" * 15, "bad.txt: 15 strengths, expected 16"), ("0.5\n" * 17, "bad.txt:17: more strengths, expected 16"),
-                       ("0.5\nx\n", "bad.txt:2: 'x', expected one strength"), ("0.5\n-1\n", "bad.txt:2: -1, expected one strength")):
-        Path("bad.txt").write_text(text)
-        no("--friction-file bad.txt", said)
-    no("--friction-file none.txt", "none.txt")
-    no("--friction-file mu.txt --friction-range 0.5 1", "--friction-(file|range)")
-    no("--friction-file mu.txt --correlation-length 1", "--(friction-file|correlation-length)")
-
-
-def test_limits(no):
-    no("--radiation -1", "--radiation = -1, expected a finite number >= 0")
-    no("--mass 0", "--mass = 0, expected a positive number, or --radiation")
-    no("--mass 0 --radiation 1 --scheme verlet", "--scheme = verlet, expected adams-bashforth with --mass 0")
-    no("--scheme adams-bashforth", "--scheme adams-bashforth needs --mass 0")
-    no("--mass 0 --radiation 1 --dt 0.5", "--dt = 0.5, expected at most 0.249")
-    no("--radiation 10 --mass 0.1", "--dt = 0.05, expected at most 0.02")
-    no("--coupling antiplane --kl 0.1 --width 5", "--(kl|width)")
-    no("--width 5", "--width needs --coupling antiplane or inplane")
-    no("--coupling inplane --width -5", "--width = -5, expected a positive finite number")
-    no("--coupling inplane --kc 0", "--kc = 0, expected a positive finite number")
-    for more in "--coupling antiplane", "--radiation 0.1", "--correlation-length 1":
-        no("--leap 1e-3 " + more, "--leap needs --coupling chain without")
-    for length in "nan", "1e-19":  # cells that short could not be counted
-        no(f"--correlation-length {length}", f"--correlation-length = {length}, expected 0, or a finite number of at least 1e-9")
-    no("--leap 1e-3 --events ruptures --rupture-gap 51", "--rupture-gap = 51, expected at most 50 with --leap")
 
 
 @pytest.mark.parametrize("way", [
@@ -116,15 +66,6 @@ def test_killed_and_resumed(slider, ran, way):
     assert len(rows("whole.csv")) >= 10
     whole, again = (json.loads(Path(name).read_text()) for name in ("whole.json", "part.json"))
     assert whole["radiated"] == again["radiated"] > 0
-
-
-def test_ensembles_of_threads(ran):
-    settings = SHORT + "--coupling antiplane --radiation 0.1 "
-    ran(settings, "--ensemble 4 --threads 4 --catalogue run{run}.csv")
-    for k in range(4):
-        ran(settings, "--seed", k + 3, "--catalogue alone.csv")
-        assert rows("alone.csv") == rows(f"run{k + 1}.csv")
-        assert len(rows("alone.csv")) > 5
 
 
 def test_stiffness_of_the_lattice(lmp, ran):

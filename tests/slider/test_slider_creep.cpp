@@ -197,25 +197,13 @@ TEST(SliderCreep, KnowsWhatGetsFast) {
   EXPECT_EQ(run_away, 4);
 }
 
-TEST(SliderCreep, KnowsWhatGetsFastUnderOtherLaws) {
-  // With a weakening W per slip, two blocks run away if K_c + K_l < W, one if 2 K_c + K_l < W.
-  Patch one(1), two(2);
-  for (Patch *patch : {&one, &two}) {
-    Friction &law = patch->p.friction;
-    law.law = Law::coulomb;
-    law.dynamic = 1.0;
-    EXPECT_FALSE(patch->gets_fast(10.0));
-    law.dynamic = 0.99;
-    EXPECT_TRUE(patch->gets_fast(1e9));
-    law.law = Law::slip_weakening;
-    law.dynamic = 0.5;
-    law.dc = 0.35 / 1.5;
-    EXPECT_EQ(patch->gets_fast(1e9), patch == &two);
-    law.dc = 0.35 / 2.02;
-    EXPECT_TRUE(patch->gets_fast(1e9));
-    law.dc = 0.35 / 1.0;
-    EXPECT_FALSE(patch->gets_fast(1e9));
-  }
+TEST(SliderCreep, UnderCoulombFrictionAnyDropOfStrengthIsFast) {
+  Patch one(1);
+  Friction &law = one.p.friction;
+  law = {Law::coulomb, 1.0};
+  EXPECT_FALSE(one.gets_fast(10.0));
+  law.dynamic = 0.99;
+  EXPECT_TRUE(one.gets_fast(1e9));
 }
 
 RunOptions slow(int blocks, double velocity, double way) {
@@ -351,7 +339,7 @@ TEST(SliderLeaps, DoNotDependOnWhatIsLookedAt) {
   o.catalogue = a;
   const RunResult plain = run(o);
   o.catalogue = b;
-  o.kernel = Kernel::dense;
+  o.dense = true;
   o.series = testing::TempDir() + "slider_leaps.pe";
   o.series_stride = 50;
   const RunResult looked_at = run(o);

@@ -32,48 +32,52 @@ Parameters parameters(const Case &c, Scheme scheme) {
   return p;
 }
 
-// The laws other than Eq. 6, the tests of which follow.
-TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
-  // without dynamic friction the ghost beside the last block must not slide either
-  for (const Friction &law : {Friction{Law::coulomb, 0.7, 0.3},
-                              {Law::slip_weakening, 0.7, 0.3},
-                              {Law::slip_weakening, 0.0, 0.01}})
-    for (const Case &c : {cases[0], cases[3], cases[7], cases[8], cases[10]})
-      for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
-        Parameters p;
-        p.blocks = c.blocks;
-        p.kl = c.kl;
-        p.dt = c.dt;
-        p.velocity = std::max(c.velocity, 0.1);
-        p.scheme = scheme;
-        p.friction = law;
-        const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
-        Chain active(p, mu, false);
-        Chain dense(p, mu, true, InstructionSet::baseline);
-        ScalarChain scalar(p, mu);
-        for (int n = 0; n < 20000; ++n) {
-          active.advance();
-          dense.advance();
-          scalar.advance();
-          ASSERT_EQ(active.pe(), dense.pe())
-              << to_string(law.law) << " N " << c.blocks << " step " << n;
-          ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << to_string(law.law) << " N " << c.blocks;
-          if (n == 10000) active.set_state(active.state());  // holds all that is needed
-        }
-        EXPECT_EQ(active.displacements(), scalar.displacements())
-            << to_string(law.law) << " N " << c.blocks;
-        EXPECT_EQ(active.velocities(), scalar.velocities())
-            << to_string(law.law) << " N " << c.blocks;
-        EXPECT_NEAR(active.pe(), scalar.pe(), 1e-9 * scalar.pe());
-        EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
-        EXPECT_EQ(active.state().rest.empty(),
-                  law.law != Law::slip_weakening);  // kept only where it is needed
-      }
+TEST(SliderKernels, CoulombFrictionAgreesOverKernelsAndInstructionSets) {
+  for (const Case &c : {cases[0], cases[3], cases[7], cases[8], cases[10]}) {
+    Parameters p;
+    p.blocks = c.blocks;
+    p.kl = c.kl;
+    p.dt = c.dt;
+    p.velocity = std::max(c.velocity, 0.1);
+    p.friction = {Law::coulomb, 0.7};
+    const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
+    Chain active(p, mu, false);
+    Chain dense(p, mu, true, InstructionSet::baseline);
+    ScalarChain scalar(p, mu);
+    for (int n = 0; n < 20000; ++n) {
+      active.advance();
+      dense.advance();
+      scalar.advance();
+      ASSERT_EQ(active.pe(), dense.pe()) << "N " << c.blocks << " step " << n;
+      ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << "N " << c.blocks;
+      if (n == 10000) active.set_state(active.state());  // holds all that is needed
+    }
+    EXPECT_EQ(active.displacements(), scalar.displacements()) << "N " << c.blocks;
+    EXPECT_EQ(active.velocities(), scalar.velocities()) << "N " << c.blocks;
+    EXPECT_NEAR(active.pe(), scalar.pe(), 1e-9 * scalar.pe());
+    EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
+  }
+}
+
+TEST(SliderKernels, ASchemeThatDoesNotFitTheModelIsRefused) {
+  const auto refuses = [](const Parameters &p) {
+    EXPECT_THROW(step_function(p, InstructionSet::baseline), std::invalid_argument);
+  };
+  Parameters p;
+  p.scheme = Scheme::adams_bashforth;
+  refuses(p);  // nothing balances the springs
+  p.scheme = Scheme::printed;
+  EXPECT_NE(step_function(p, InstructionSet::baseline), nullptr);
+  p.radiation = 0.1;
+  refuses(p);
+  p.radiation = 0.0;
+  p.friction.law = Law::coulomb;
+  refuses(p);
 }
 
 TEST(SliderKernels, ActiveSetEqualsDenseToTheLastDigit) {
   for (const Case &c : cases) {
-    for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+    for (Scheme scheme : {Scheme::printed, Scheme::verlet}) {
       const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
       Chain active(p, mu, false);
@@ -99,7 +103,7 @@ TEST(SliderKernels, InstructionSetsAgreeToTheLastDigit) {
       continue;
     }
     for (const Case &c : cases) {
-      for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+      for (Scheme scheme : {Scheme::printed, Scheme::verlet}) {
         const Parameters p = parameters(c, scheme);
         const auto mu = random_friction(p.blocks, 0.5, 1.0, 12);
         Chain one(p, mu, false, InstructionSet::baseline);
@@ -118,7 +122,7 @@ TEST(SliderKernels, InstructionSetsAgreeToTheLastDigit) {
 TEST(SliderKernels, AgreesWithStraightforwardLoop) {
   // The arithmetic of a block is the same, and so is the motion; only PE is summed differently.
   for (const Case &c : cases) {
-    for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+    for (Scheme scheme : {Scheme::printed, Scheme::verlet}) {
       const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 13);
       Chain active(p, mu, false);

@@ -129,30 +129,27 @@ TEST(SliderModes, ForcesAreThoseOfTheSumOverAllPairs) {
 }
 
 TEST(SliderModes, StiffnessOfSpringsGivesTheChain) {
-  for (const Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
-    Parameters springs;
-    springs.blocks = 60;
-    springs.kl = 0.1;
-    springs.velocity = 0.1;
-    springs.scheme = scheme;
-    Parameters modes = springs;
-    for (int n = 0; n <= 30; ++n)
-      modes.modes.push_back(stiffness_of_springs(springs, 2.0 * LSM::pi * n / 60));
-    const auto mu = random_friction(60, 0.5, 1.0, 4);
-    Chain chain(springs, mu, false), bulk(modes, mu, false);
-    // It takes some 300 time units for chaos to amplify a difference in the last digit.
-    for (int n = 0; n < 3000; ++n) {
-      chain.advance();
-      bulk.advance();
-    }
-    EXPECT_GT(chain.moved(), 1000);
-    const auto a = chain.displacements(), b = bulk.displacements();
-    for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-7) << to_string(scheme);
-    EXPECT_NEAR(chain.pe(), bulk.pe(), 1e-7 * chain.pe());
+  Parameters springs;
+  springs.blocks = 60;
+  springs.kl = 0.1;
+  springs.velocity = 0.1;
+  Parameters modes = springs;
+  for (int n = 0; n <= 30; ++n)
+    modes.modes.push_back(stiffness_of_springs(springs, 2.0 * LSM::pi * n / 60));
+  const auto mu = random_friction(60, 0.5, 1.0, 4);
+  Chain chain(springs, mu, false), bulk(modes, mu, false);
+  // It takes some 300 time units for chaos to amplify a difference in the last digit.
+  for (int n = 0; n < 3000; ++n) {
+    chain.advance();
+    bulk.advance();
   }
+  EXPECT_GT(chain.moved(), 1000);
+  const auto a = chain.displacements(), b = bulk.displacements();
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-7);
+  EXPECT_NEAR(chain.pe(), bulk.pe(), 1e-7 * chain.pe());
 }
 
-// Every combination of scheme and law, with and without radiation, with springs and modes.
+// Every combination of scheme, law, radiation and coupling that a run can ask for.
 struct Way {
   Scheme scheme;
   Law law;
@@ -160,11 +157,11 @@ struct Way {
   bool modes;
 };
 std::vector<Way> all_ways() {
-  std::vector<Way> ways;
-  for (const Law law : {Law::velocity_weakening, Law::coulomb, Law::slip_weakening})
+  std::vector<Way> ways = {{Scheme::printed, Law::velocity_weakening, 0.0, false}};
+  for (const Law law : {Law::velocity_weakening, Law::coulomb})
     for (const bool modes : {false, true}) {
-      for (const Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet})
-        for (const double radiation : {0.0, 0.3}) ways.push_back({scheme, law, radiation, modes});
+      for (const double radiation : {0.0, 0.3})
+        ways.push_back({Scheme::verlet, law, radiation, modes});
       ways.push_back({Scheme::adams_bashforth, law, 1.5, modes});
     }
   return ways;
@@ -179,7 +176,7 @@ Parameters parameters_of(const Way &w, int blocks) {
   p.kl = 0.1;
   p.velocity = 0.1;
   p.scheme = w.scheme;
-  p.friction = {w.law, 0.7, 0.3};
+  p.friction = {w.law, 0.7};
   p.radiation = w.radiation;
   if (w.scheme == Scheme::adams_bashforth) p.mass = 0.0;
   return p;
@@ -239,7 +236,7 @@ TEST(SliderModes, ActiveSetJumpsAndSavedStatesChangeNoDigit) {
 TEST(SliderModes, ASlipThatReachesRestingBlocksStartsThemAsIfAllWereStepped) {
   // How far a block without inertia slips in its first step depends on the force before it, which
   // nobody has computed while its chunk was idle.
-  for (const Law law : {Law::coulomb, Law::velocity_weakening, Law::slip_weakening}) {
+  for (const Law law : {Law::coulomb, Law::velocity_weakening}) {
     Parameters p;
     p.blocks = 400;
     p.scheme = Scheme::adams_bashforth;
@@ -248,7 +245,7 @@ TEST(SliderModes, ASlipThatReachesRestingBlocksStartsThemAsIfAllWereStepped) {
     p.dt = 0.2;
     p.velocity = 0.002;
     p.kl = 0.3;
-    p.friction = {law, 0.8, 0.3};
+    p.friction = {law, 0.8};
     const auto mu = random_friction(p.blocks, 0.5, 1.0, 1);
     Chain dense(p, mu, true), active(p, mu, false);
     for (int n = 0; n < 15000; ++n) {
@@ -311,11 +308,10 @@ TEST(SliderModes, WithoutInertiaTheOrderIsTwoAcrossStartsAndStops) {
     Friction friction;
     double radiation;
   };
-  for (const Case &c : {Case{{Law::velocity_weakening, 1.0, 1.0}, 0.6},
-                        {{Law::velocity_weakening, 1.0, 1.0}, 1.5},
-                        {{Law::coulomb, 0.6, 1.0}, 0.6},
-                        {{Law::coulomb, 1.0, 1.0}, 0.6},
-                        {{Law::slip_weakening, 0.6, 0.4}, 0.6}}) {
+  for (const Case &c : {Case{{Law::velocity_weakening, 1.0}, 0.6},
+                        {{Law::velocity_weakening, 1.0}, 1.5},
+                        {{Law::coulomb, 0.6}, 0.6},
+                        {{Law::coulomb, 1.0}, 0.6}}) {
     Parameters p = coupled(Coupling::antiplane, 12, 0.1);
     p.friction = c.friction;
     p.radiation = c.radiation;
@@ -359,7 +355,7 @@ TEST(SliderModes, EnergyLedgerClosesWithRadiation) {
     if (mass == 0.0) {
       p.mass = 0.0;
       p.scheme = Scheme::adams_bashforth;
-      p.friction = {Law::coulomb, 0.6, 1.0};
+      p.friction = {Law::coulomb, 0.6};
     }
     const std::vector<double> start = event_start(12);
     double gap[2] = {};
@@ -392,7 +388,7 @@ TEST(SliderModes, StrengthsAreDrawnAnewAlongTheWay) {
   p.blocks = 1;
   p.kl = 1.0;
   p.velocity = 0.01;
-  p.friction = {Law::coulomb, 1.0, 1.0};
+  p.friction = {Law::coulomb, 1.0};
   p.landscape = {0.25, 0.6, 0.9, 5};
   Chain chain(p, {0.75}, false);
   // The strength is the force of the leaf spring at which the block starts.
@@ -439,7 +435,7 @@ TEST(SliderModes, RunsJumpAndResumeToTheLastByte) {
     const std::string whole = text(o.catalogue), state = text(o.checkpoint);
     o.catalogue = testing::TempDir() + "slider_modes_b.csv";
     o.checkpoint = o.catalogue + ".chk";
-    o.kernel = Kernel::dense;
+    o.dense = true;
     run(o);
     EXPECT_EQ(text(o.catalogue), whole);
     EXPECT_EQ(text(o.checkpoint), state);
@@ -456,9 +452,9 @@ TEST(SliderModes, StabilityLimitsBoundTheFreeMotion) {
   // Just below the limit of a scheme the shortest wave of blocks that slide without friction
   // remains bounded, and just above it grows.
   for (const Way &w : all_ways()) {
-    if (w.law != Law::coulomb || w.scheme == Scheme::printed) continue;
+    if (w.law != Law::coulomb) continue;
     Parameters p = parameters_of(w, 16);
-    p.friction = {Law::coulomb, 1.0, 1.0};
+    p.friction = {Law::coulomb, 1.0};
     p.velocity = 1.0;  // keeps all blocks sliding
     const auto grows = [&](double factor) {
       p.dt = factor * stability_limit(p);

@@ -22,7 +22,6 @@ TEST(SliderParameters, DefaultsAreSound) { EXPECT_EQ(message(Parameters()), "");
 
 TEST(SliderParameters, StabilityLimits) {
   Parameters p;
-  p.scheme = Scheme::semi_implicit;
   EXPECT_NEAR(stability_limit(p), 2.0 / std::sqrt(4.01), 1e-12);
   p.dt = 1.0;
   const std::string text = message(p);
@@ -44,6 +43,8 @@ TEST(SliderParameters, PrintedSchemeIsRefusedUnlessForced) {
   EXPECT_EQ(message(p, true), "");
   p.dt = 0.119;
   EXPECT_EQ(message(p), "");
+  p.radiation = 0.1;
+  EXPECT_EQ(message(p), scheme_needs);
 }
 
 TEST(SliderParameters, BadValuesNameTheOption) {

@@ -11,7 +11,7 @@
 namespace Slider {
 namespace {
 
-constexpr Scheme stepped[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet};
+constexpr Scheme stepped[] = {Scheme::printed, Scheme::verlet};
 
 // Displacements at the end of a run with any scheme.
 std::vector<double> final_state(Parameters p, const AnyScheme &scheme, double h, double time,
@@ -56,8 +56,8 @@ TEST(SliderPhysics, FrictionlessBlockFollowsClosedForm) {
   p.velocity = 0.2;
   const double w = std::sqrt(p.kl / p.mass), time = 20.0;
   const double exact = p.velocity * time - p.velocity / w * std::sin(w * time);
-  const double tolerance[] = {2e-3, 2e-3, 1e-6};
-  for (int k = 0; k < 3; ++k)
+  const double tolerance[] = {2e-3, 1e-6};
+  for (int k = 0; k < 2; ++k)
     EXPECT_NEAR(final_state(p, stepped[k], 0.002, time, {0.0}, {0.0})[0], exact, tolerance[k])
         << to_string(stepped[k]);
   EXPECT_NEAR(final_state(p, Located::rk4, 0.01, time, {0.0}, {0.0})[0], exact, 1e-10);
@@ -129,8 +129,8 @@ TEST(SliderPhysics, ConvergenceOrdersOnOneEvent) {
     AnyScheme scheme;
     double order;
   };
-  for (const Case &c : {Case{Scheme::printed, 1.0}, Case{Scheme::semi_implicit, 1.0},
-                        Case{Scheme::verlet, 2.0}, Case{Located::rk4, 4.0}}) {
+  for (const Case &c : {Case{Scheme::printed, 1.0}, Case{Euler(), 1.0}, Case{Scheme::verlet, 2.0},
+                        Case{Located::rk4, 4.0}}) {
     // The order is the slope of log error against log h by least squares.
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     int n = 0;
@@ -165,8 +165,8 @@ TEST(SliderPhysics, NoBackSlip) {
   p.velocity = 0.1;
   p.dt = 0.05;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 3);
-  for (const AnyScheme scheme : {AnyScheme(Scheme::printed), AnyScheme(Scheme::semi_implicit),
-                                 AnyScheme(Scheme::verlet), AnyScheme(Located::rk4)}) {
+  for (const AnyScheme scheme :
+       {AnyScheme(Scheme::printed), AnyScheme(Scheme::verlet), AnyScheme(Located::rk4)}) {
     with_chain(p, mu, scheme, [&](auto &chain) {
       std::vector<double> before = chain.displacements();
       int stops = 0;
@@ -239,7 +239,7 @@ TEST(SliderPhysics, PrintedSchemeStopsABlockWithTheAccelerationThatStopsIt) {
 
 TEST(SliderPhysics, FrictionIsAForce) {
   Parameters p;
-  p.scheme = Scheme::semi_implicit;
+  p.scheme = Scheme::printed;
   p.dt = 0.01;
   p.mass = 4.0;
   EXPECT_DOUBLE_EQ(after_a_step(p, 0.5, 0.2).v[0], 0.5 + p.dt * (0.2 - 0.8 / 1.5) / 4.0);
@@ -248,24 +248,20 @@ TEST(SliderPhysics, FrictionIsAForce) {
 TEST(SliderPhysics, EnergyLedgerClosesAsTheSchemeConverges) {
   // Work of the plate = PE + kinetic energy + friction loss.
   const OneEvent e;
-  for (Scheme scheme : {Scheme::semi_implicit, Scheme::verlet}) {
-    double gap[2] = {};
-    for (int k = 0; k < 2; ++k) {
-      Parameters p = e.p;
-      p.scheme = scheme;
-      p.dt = k == 0 ? 0.02 : 0.005;
-      ScalarChain chain(p, e.mu, true);
-      chain.set_displacements(e.start);
-      const double pe_start = chain.pe();
-      for (long n = 0; n < std::lround(e.time / p.dt); ++n) chain.advance();
-      const EnergyLedger l = chain.ledger();
-      ASSERT_GT(l.friction, 0.1);
-      gap[k] = std::fabs(l.plate - (chain.pe() - pe_start) - l.kinetic - l.friction) / l.friction;
-    }
-    const double order = std::log(gap[0] / gap[1]) / std::log(4.0);
-    EXPECT_GT(order, scheme == Scheme::verlet ? 1.6 : 0.8) << to_string(scheme);
-    EXPECT_LT(gap[1], scheme == Scheme::verlet ? 1e-4 : 1e-2) << to_string(scheme);
+  double gap[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    Parameters p = e.p;
+    p.dt = k == 0 ? 0.02 : 0.005;
+    ScalarChain chain(p, e.mu, true);
+    chain.set_displacements(e.start);
+    const double pe_start = chain.pe();
+    for (long n = 0; n < std::lround(e.time / p.dt); ++n) chain.advance();
+    const EnergyLedger l = chain.ledger();
+    ASSERT_GT(l.friction, 0.1);
+    gap[k] = std::fabs(l.plate - (chain.pe() - pe_start) - l.kinetic - l.friction) / l.friction;
   }
+  EXPECT_GT(std::log(gap[0] / gap[1]) / std::log(4.0), 1.6);
+  EXPECT_LT(gap[1], 1e-4);
 }
 
 TEST(SliderPhysics, LedgerOfLocatedScheme) {
@@ -301,8 +297,7 @@ TEST(SliderPhysics, PeriodsOfOneBlockAreThoseOfTheReference) {
     double kl;
   };
   for (const Case &c :
-       {Case{{Law::velocity_weakening, 1.0, 1.0}, 0.05},
-        Case{{Law::slip_weakening, 0.75, 0.5}, 0.1}, Case{{Law::coulomb, 0.75, 1.0}, 0.05}}) {
+       {Case{{Law::velocity_weakening, 1.0}, 0.05}, Case{{Law::coulomb, 0.75}, 0.05}}) {
     Parameters p;
     p.blocks = 1;
     p.velocity = 0.01;
@@ -341,24 +336,20 @@ TEST(SliderPhysics, ExtremeParametersStayFinite) {
                         Case{64, 10.0, 1.0, 0.5, 1.0}, Case{1, 0.01, 0.01, 0.5, 1.0},
                         Case{2, 0.01, 0.1, 0.5, 1.0}, Case{3, 0.01, 0.1, 0.5, 1.0},
                         Case{64, 0.01, 0.1, 0.7, 0.7}, Case{64, 0.01, 0.1, 0.7, 0.7 + 1e-9}}) {
-    for (Scheme scheme : {Scheme::semi_implicit, Scheme::verlet}) {
-      Parameters p;
-      p.blocks = c.blocks;
-      p.kl = c.kl;
-      p.velocity = c.velocity;
-      p.scheme = scheme;
-      p.dt = stability_limit(p) * 0.999;
-      p.dt = std::min(p.dt, 1.0);
-      Chain chain(p, random_friction(p.blocks, c.low, c.high, 5), false);
-      for (int n = 0; n < 50000; ++n) chain.advance();
-      const auto u = chain.displacements();
-      for (double x : u) ASSERT_TRUE(std::isfinite(x) && x >= 0.0);
-      const double direct = direct_energy(p, u, chain.plate());
-      // Rounding errors of displacements are relative to the displacement of the plate, and each
-      // acts through a force of order one. In the worst case all have the same sign.
-      const double rounding = 2.2e-16 * chain.plate() * p.blocks * 50000.0;
-      EXPECT_NEAR(chain.pe(), direct, rounding + 1e-9 * (1.0 + direct));
-    }
+    Parameters p;
+    p.blocks = c.blocks;
+    p.kl = c.kl;
+    p.velocity = c.velocity;
+    p.dt = std::min(stability_limit(p) * 0.999, 1.0);
+    Chain chain(p, random_friction(p.blocks, c.low, c.high, 5), false);
+    for (int n = 0; n < 50000; ++n) chain.advance();
+    const auto u = chain.displacements();
+    for (double x : u) ASSERT_TRUE(std::isfinite(x) && x >= 0.0);
+    const double direct = direct_energy(p, u, chain.plate());
+    // Rounding errors of displacements are relative to the displacement of the plate, and each acts
+    // through a force of order one. In the worst case all have the same sign.
+    const double rounding = 2.2e-16 * chain.plate() * p.blocks * 50000.0;
+    EXPECT_NEAR(chain.pe(), direct, rounding + 1e-9 * (1.0 + direct));
   }
 }
 

@@ -451,8 +451,8 @@ def test_names_that_programs_do_not_have_are_refused(plan):
             plan(f"run,program,length,settings\nf,fault,24,{name}=100\n")
     with pytest.raises(TableError, match="my.csv:2: 'block', which program slider does not have .did you mean blocks"):
         plan("run,program,block\nc,slider,100\n")
-    with pytest.raises(TableError, match="'ensemble' is set by the study"):
-        plan("run,program,ensemble\nc,slider,3\n")
+    with pytest.raises(TableError, match="'resume' is set by the study"):
+        plan("run,program,resume\nc,slider,yes\n")
     # Columns of other programs may be empty.
     assert list(plan("program,run,length,blocks\nfault,f,24,\nslider,c,,100\n").runs) == ["f", "c"]
 

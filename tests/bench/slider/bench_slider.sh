@@ -1,8 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Speed of the block-slider on one core: the straightforward loop over all blocks, the dense kernel
-# and the active set, run in turn so that all see the same machine; then the cost against the number
-# of blocks. Usage: bench_slider.sh SLIDER_CLI PLAIN_LOOP [STEPS [ROUNDS]]
+# Speed of the block-slider on one core: the straightforward loop over all blocks and the active set,
+# run in turn so that both see the same machine; then the cost against the number of blocks. Usage: bench_slider.sh SLIDER_CLI PLAIN_LOOP [STEPS [ROUNDS]]
 set -eu
 export LC_ALL=C
 program=$1
@@ -15,23 +14,20 @@ seconds() {
   "$program" "$@" --overwrite --catalogue "$folder/c.csv" --json - | awk '/"seconds"/ {print $2 + 0}'
 }
 echo "N = 1928, $steps steps, dt 0.01, PE every step; seconds"
-for scheme in printed semi-implicit verlet; do
-  for kernel in scalar dense active; do : >"$folder/$kernel"; done
+for scheme in printed verlet; do
+  rm -f "$folder/scalar" "$folder/active"
   for ((round = 1; round <= rounds; ++round)); do
     "$plain_loop" $scheme 1928 0.01 "$steps" >>"$folder/scalar"
-    for kernel in dense active; do
-      seconds --blocks 1928 --dt 0.01 --steps "$steps" --picker-lambda 0.99 --scheme $scheme \
-        --kernel $kernel >>"$folder/$kernel"
-    done
+    seconds --blocks 1928 --dt 0.01 --steps "$steps" --picker-lambda 0.99 --scheme $scheme \
+      >>"$folder/active"
   done
-  paste "$folder/scalar" "$folder/dense" "$folder/active" | awk -v scheme=$scheme '
-    {printf "%-14s scalar %8.2f  dense %8.2f  active %8.2f  scalar/active %6.2f\n", scheme, $1, $2,
-            $3, $1 / $3}'
+  paste "$folder/scalar" "$folder/active" | awk -v scheme=$scheme '
+    {printf "%-14s scalar %8.2f  active %8.2f  scalar/active %6.2f\n", scheme, $1, $2, $1 / $2}'
 done
 # Loading up to the first slip, near t = 5000, is skipped.
-echo "cost of the active set against N, semi-implicit, dt 0.01, the first 500 time units of slip"
+echo "cost of the active set against N, verlet, dt 0.01, the first 500 time units of slip"
 for blocks in 1000 10000 100000 1000000; do
-  "$program" --blocks $blocks --dt 0.01 --steps 550000 --scheme semi-implicit --warmup 0 \
+  "$program" --blocks $blocks --dt 0.01 --steps 550000 --warmup 0 \
     --overwrite --catalogue "$folder/n.csv" \
     --json "$folder/a.json" >/dev/null
   awk -v n=$blocks '/"nanosec/ {t = $2 + 0} /"moving_f/ {m = $2 * n}
