@@ -110,7 +110,7 @@ void Analysis::add_table(OptionGroup group, const std::string &base) {
 }
 
 void Statistic::add_usual(CLI::App *command, const std::string &base) {
-  catalogues.add_to(command);
+  add_catalogues(command, catalogues);
   json.add_to(command);
   add_picture(command, base);
 }

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "catalogue_input.h"
+#include "catalogue_options.h"
 #include "results.h"
-#include "options.h"
 
 namespace LSM::postproc {
 

@@ -26,9 +26,9 @@ class Compare : public Statistic {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues.add_to(command);
+    add_catalogues(command, catalogues);
     json.add_to(command);
-    catalogues.add_displacement(command);
+    add_displacement(command, catalogues);
     OptionGroup group(command);
     add_table(group, "compare");
     add_threshold(group, threshold_, "the events that are compared");

@@ -27,8 +27,8 @@ class Count : public CatalogueAnalysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues.add_to(command);
-    catalogues.add_displacement(command);
+    add_catalogues(command, catalogues);
+    add_displacement(command, catalogues);
     json.add_to(command);
     OptionGroup group(command);
     group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),

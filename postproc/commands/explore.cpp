@@ -80,8 +80,8 @@ class Explore : public Command {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
-    catalogues_.add_magnitude_bin(command);
+    add_catalogues(command, catalogues_);
+    add_magnitude_bin(command, catalogues_);
     catalogues_.details = most_events;
     page_ = {"", ModelUnits::model_p_speed, ModelUnits::model_s_speed,
              "postproc " POSTPROC_VERSION};

@@ -118,9 +118,10 @@ class Export : public CatalogueAnalysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues.add_to(command);
+    add_catalogues(command, catalogues);
     catalogues.bins_for_models = true;
-    catalogues.add_magnitude_bin(command, "none for models; magnitudes of earthquakes as they are");
+    add_magnitude_bin(command, catalogues,
+                      "none for models; magnitudes of earthquakes as they are");
     json.add_to(command);
     OptionGroup own(command);
     own.remove("--format");  // the format of the output has the name instead

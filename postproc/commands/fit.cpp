@@ -25,7 +25,7 @@ class Fit : public Statistic {
 
   void add_options(CLI::App *command) override {
     add_usual(command, "fit");
-    catalogues.add_magnitude_bin(command);
+    add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
               "LO:HI, sizes that are fitted, several allowed; without it three decades, as in the "

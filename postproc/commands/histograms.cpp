@@ -19,7 +19,7 @@ class Histograms : public Statistic {
 
   void add_options(CLI::App *command) override {
     add_usual(command, "histograms");
-    catalogues.add_magnitude_bin(command);
+    add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Densities");
     add_threshold(group, settings_.threshold, "the densities");
     group.add("--range", range_, "LO:HI, only bins within this range of sizes");

@@ -31,8 +31,8 @@ class Magnitudes : public Statistic {
   void add_options(CLI::App *command) override {
     add_usual(command, "magnitudes");
     catalogues.bins_for_models = true;
-    catalogues.add_magnitude_bin(
-        command, "none for models; for earthquakes the step of the magnitudes in the file");
+    add_magnitude_bin(command, catalogues,
+                      "none for models; for earthquakes the step of the magnitudes in the file");
     OptionGroup group(command, "Magnitudes †");
     magnitudes_.add_to(group);
     group.add(

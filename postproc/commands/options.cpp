@@ -76,12 +76,6 @@ PowerLine parse_guide(std::string_view text) {
   return line;
 }
 
-void expect_each(const char *option, std::size_t given, const char *of, std::size_t count) {
-  if (given > 0 && given != count)
-    throw std::invalid_argument(
-        fmt::format("{} given {} times, expected once per {} ({})", option, given, of, count));
-}
-
 void UnitOptions::add_to(OptionGroup group) {
   group.add("--unit-length", length,
             "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "

@@ -32,11 +32,6 @@ Range parse_range(const std::string &option, std::string_view text);
 /// \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
 
-/// Checks that an option was given once for each of `count` things, or not at all.
-/// \param of what the things are, for the message
-/// \throws std::invalid_argument otherwise
-void expect_each(const char *option, std::size_t given, const char *of, std::size_t count);
-
 /// Options that say what the units of the fault are in SI.
 struct UnitOptions {
   /// Unit of length (m), speed of P-waves (m/s), density (kg/m^3) and thickness (m).

@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "new_file.h"
-#include "series_input.h"
+#include "series_options.h"
 
 namespace LSM::postproc {
 
@@ -62,7 +62,7 @@ class Pick : public Analysis {
     OptionGroup group(command);
     add_series(group, series_);
     output_.add_to(group, "catalogue");
-    samples_.add_to(group, false);
+    add_samples(group, samples_, false);
     json.add_to(command);
     group.add("--warmup", warmup_,
               "Leave out events that start before this time (model time) † (default: as in the "

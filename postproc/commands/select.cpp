@@ -37,7 +37,7 @@ class Select : public CatalogueAnalysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues.add_to(command);
+    add_catalogues(command, catalogues);
     // By default events of negative size are kept as well.
     catalogues.min_size = -std::numeric_limits<double>::infinity();
     OptionGroup group(command);

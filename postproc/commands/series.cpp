@@ -8,7 +8,7 @@
 #include "new_file.h"
 #include "numbers.h"
 #include "series_figures.h"
-#include "series_input.h"
+#include "series_options.h"
 
 namespace LSM::postproc {
 
@@ -49,7 +49,7 @@ class Series : public Analysis {
   void add_options(CLI::App *command) override {
     OptionGroup group(command);
     add_series(group, series_);
-    samples_.add_to(group, true);
+    add_samples(group, samples_, true);
     json.add_to(command);
     group.add("--title", title_, "Title of the picture", shown("number of events and times"));
     group.add("--columns", columns_,

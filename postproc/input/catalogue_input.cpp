@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -296,6 +297,40 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
     std::stable_sort(table.details.begin(), table.details.end(), earlier);
   }
   return table;
+}
+
+void expect_each(const char *option, std::size_t given, const char *of, std::size_t count) {
+  if (given > 0 && given != count)
+    throw std::invalid_argument(
+        fmt::format("{} given {} times, expected once per {} ({})", option, given, of, count));
+}
+
+void check(const CatalogueOptions &options) {
+  if (!(options.from_time < options.to_time))
+    throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
+                                            options.from_time, options.to_time));
+  if (options.regions.empty())
+    expect_each("--label", options.labels.size(), "catalogue", options.paths.size());
+  for (const std::string &region : options.regions) parse_region(region);
+  for (const std::string &condition : options.where) parse_condition(condition);
+  if (!(options.from_day < options.to_day))
+    throw std::invalid_argument("--from is no earlier date than --to, expected --from before --to");
+}
+
+void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
+  if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
+    throw std::invalid_argument(
+        "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
+  if (quakes == 0 && options.magnitude_bin && !options.bins_for_models)
+    throw std::invalid_argument("--magnitude-bin, but no catalogue is of earthquakes");
+  if (quakes == 0 && !options.regions.empty())
+    throw std::invalid_argument("--region, but no catalogue is of earthquakes");
+  if (quakes == all && (std::isfinite(options.from_time) || std::isfinite(options.to_time)))
+    throw std::invalid_argument(
+        "--from or --to is a number, but all catalogues are of earthquakes, expected a date such "
+        "as "
+        "1984-01-01");
+  expect_each("--label", options.labels.size(), "catalogue and region", all);
 }
 
 void state_repairs(const EventTable &table) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file catalogue_input.h
-/// How commands read catalogues, and the options that select events.
+/// How catalogues are read, and what of them.
 #ifndef LSM_POSTPROC_CATALOGUE_INPUT_H
 #define LSM_POSTPROC_CATALOGUE_INPUT_H
 
@@ -13,7 +13,6 @@
 #include "earthquakes.h"
 #include "event_table.h"
 #include "files/catalogue.h"
-#include "options.h"
 
 namespace LSM::postproc {
 
@@ -39,28 +38,12 @@ struct CatalogueOptions {
   /// Width of the bins of magnitudes, 0: none; without it those that are recognized.
   std::optional<double> magnitude_bin;
   bool bins_for_models = false;  ///< whether magnitude_bin is for models as well
-
-  /// Adds the arguments for catalogues and the options that select events to a command.
-  void add_to(CLI::App *command);
-  /// Adds --displacement, for commands whose output does not state a unit of time.
-  void add_displacement(CLI::App *command);
-  /// Adds --magnitude-bin, for commands whose results depend on it.
-  /// \param otherwise what is done without it, for the help
-  void add_magnitude_bin(CLI::App *command,
-                         const std::string &otherwise = "the step of the magnitudes in the file");
 };
 
 /// An event as it is read.
 struct ReadEvent : EventRow {
   const Earthquake *earthquake = nullptr;  ///< nullptr: of a model
 };
-
-/// Adds --threshold.
-/// \param what completes "Smallest size of" in the help
-void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what);
-/// Adds --threshold, which may be given several times.
-/// \param what completes "Smallest size of" in the help
-void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what);
 
 /// Changes the value of a parameter, or adds the parameter at the end.
 void set_parameter(files::Parameters &parameters, const std::string &key, const std::string &value);
@@ -82,6 +65,11 @@ EventTable read_events(
 EventTable read_all(const std::string &path, const CatalogueOptions &options);
 /// As read_all(), with the events in order of their starts.
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
+
+/// Checks that an option was given once for each of `count` things, or not at all.
+/// \param of what the things are, for the message
+/// \throws std::invalid_argument otherwise
+void expect_each(const char *option, std::size_t given, const char *of, std::size_t count);
 
 /// Checks the options before a catalogue is read.
 /// \throws std::invalid_argument for impossible times, regions or numbers of labels

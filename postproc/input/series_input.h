@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file series_input.h
-/// How commands read PE series: which samples they use, and how events are picked from them.
+/// How PE series are read, and which samples.
 #ifndef LSM_POSTPROC_SERIES_INPUT_H
 #define LSM_POSTPROC_SERIES_INPUT_H
 
@@ -10,8 +10,6 @@
 #include <string>
 
 #include "files/pe_series.h"
-#include "options.h"
-#include "picker_options.h"
 
 namespace LSM::postproc {
 
@@ -20,14 +18,7 @@ struct SeriesOptions {
   bool lenient = false;  ///< drop and report a truncated last sample
   double from_time = -std::numeric_limits<double>::infinity();  ///< first time used
   double to_time = std::numeric_limits<double>::infinity();     ///< last time used
-
-  /// Adds --lenient.
-  /// \param window whether to add --from and --to as well
-  void add_to(OptionGroup group, bool window);
 };
-
-/// Adds the argument of commands that read one series.
-void add_series(OptionGroup group, std::string &path);
 
 /// A PE series that is read in one pass.
 class SeriesInput {
@@ -55,16 +46,6 @@ class SeriesInput {
   SeriesOptions options_;
   PeSeriesReader reader_;
 };
-
-/// Adds the options of the picker to a command.
-void add_picker_options(CLI::App *command, PickerOptions &options);
-
-/// Settings of picker and filter from the options. Those not given come from the header of the
-/// series, so that picking afterwards repeats what the run picked, or else are the defaults. The
-/// filter has no warm-up.
-/// \throws std::invalid_argument naming the option that is out of range
-PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo &info);
-FilterSettings filter_settings(const PickerOptions &options, const PeSeriesInfo &info);
 
 }  // namespace LSM::postproc
 

@@ -10,7 +10,7 @@
 #include "event_table.h"
 #include "files/file_error.h"
 #include "files/parameters.h"
-#include "options.h"
+#include "option_group.h"
 
 namespace LSM::postproc {
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "catalogue_input.h"
 #include "files/header_keys.h"
 
 namespace LSM::postproc {

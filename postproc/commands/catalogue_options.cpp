@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The options that select catalogues and their events, and which of them contradict each other.
-#include <cmath>
+#include "catalogue_options.h"
+
 #include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "catalogue_input.h"
-#include "event_condition.h"
 #include "event_time.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 
@@ -46,34 +45,34 @@ std::string threshold_help(const std::string &what, const std::string &more) {
 
 }  // namespace
 
-void CatalogueOptions::add_to(CLI::App *command) {
+void add_catalogues(CLI::App *command, CatalogueOptions &of) {
   OptionGroup group(command, "Catalogues");
-  group.add("catalogues", paths,
+  group.add("catalogues", of.paths,
             "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
             "slider_cli or postproc pick; or of earthquakes (columns with names, QuakeML, GeoJSON, "
             "ZMAP, SCEDC), with times in days since 1970 UTC and sizes 10^(1.5 M)",
             required(), kind("FILE"), shown(""));
-  group.add("--label", labels,
+  group.add("--label", of.labels,
             "Name of a curve, once per catalogue and in their order (default: the model and its "
             "length or number of blocks, from the header)",
             kind("TEXT"), shown(""));
-  group.flag("--lenient", lenient,
+  group.flag("--lenient", of.lenient,
              "Skip lines that cannot be read (truncated last line, missing columns, NaN, events "
              "out of order), count them and report this on standard error; without it the first "
              "of them is an error. A wrong version or header is always an error");
   CLI::Option *const smallest = group.add(
-      "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
+      "--min-size", of.min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
       size_or_magnitude(), finite());
   group.call<double>(
-      "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
+      "--min-magnitude", [&of](double magnitude) { of.min_size = size_of_magnitude(magnitude); },
       "The same, as a magnitude", shown(""), excludes(smallest));
-  add_time(group, "--from", from_time, from_day,
+  add_time(group, "--from", of.from_time, of.from_day,
            "Leave out events that start before this time, e.g. the warm-up (model time; for "
            "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
-  add_time(group, "--to", to_time, to_day,
+  add_time(group, "--to", of.to_time, of.to_day,
            "Leave out events that start at this time or later (as --from)");
   group.add(
-      "--where", where,
+      "--where", of.where,
       "Leave out events of a model for which this does not hold: a column, one of < <= > >= = "
       "!= and a number (units of the file), such as 'peak_slip > 0.001', or 'excess > 0.5', drops "
       "of PE that are slip †: excess is what friction takes up within the event, less that in as "
@@ -81,29 +80,29 @@ void CatalogueOptions::add_to(CLI::App *command) {
       "to hold",
       one_each(), kind("CONDITION"), shown(""));
   group.add(
-      "--format", format,
+      "--format", of.format,
       "Format of the files: detect (by the first bytes: '<' is quakeml, '{' geojson, "
       "'# lsm-catalogue' models, column names with time and mag csv, YYYY/MM/DD scedc, nine "
       "numbers zmap), or one of these. Events whose type says that they are no earthquakes "
       "(blasts, ...) are left out and counted on standard error; if they are most, that is an "
       "error unless --lenient",
       among({"detect", "models", "csv", "quakeml", "geojson", "zmap", "scedc"}));
-  group.add("--region", regions,
+  group.add("--region", of.regions,
             "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
             one_each(), kind("W/E/S/N"), shown(""));
 }
 
-void CatalogueOptions::add_displacement(CLI::App *command) {
+void add_displacement(CLI::App *command, CatalogueOptions &of) {
   OptionGroup(command, "Catalogues")
-      .flag("--displacement", displacement,
+      .flag("--displacement", of.displacement,
             "Times as displacements of the driving plate, model time times the 'velocity' in the "
             "header, those of --from and --to included: for catalogues of different driving "
             "velocities †");
 }
 
-void CatalogueOptions::add_magnitude_bin(CLI::App *command, const std::string &otherwise) {
+void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::string &otherwise) {
   OptionGroup(command, "Catalogues")
-      .add("--magnitude-bin", magnitude_bin,
+      .add("--magnitude-bin", of.magnitude_bin,
            "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
            "upwards; 0: none, magnitudes are continuous. Without it " +
                otherwise,
@@ -119,34 +118,6 @@ void add_threshold(OptionGroup group, Threshold &threshold, const std::string &w
 void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what) {
   group.add("--threshold", thresholds, threshold_help(what, ", several allowed"), one_each(),
             size_or_magnitude(), zero_or_more(), shown("1e-4"));
-}
-
-void check(const CatalogueOptions &options) {
-  if (!(options.from_time < options.to_time))
-    throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
-                                            options.from_time, options.to_time));
-  if (options.regions.empty())
-    expect_each("--label", options.labels.size(), "catalogue", options.paths.size());
-  for (const std::string &region : options.regions) parse_region(region);
-  for (const std::string &condition : options.where) parse_condition(condition);
-  if (!(options.from_day < options.to_day))
-    throw std::invalid_argument("--from is no earlier date than --to, expected --from before --to");
-}
-
-void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
-  if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
-    throw std::invalid_argument(
-        "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
-  if (quakes == 0 && options.magnitude_bin && !options.bins_for_models)
-    throw std::invalid_argument("--magnitude-bin, but no catalogue is of earthquakes");
-  if (quakes == 0 && !options.regions.empty())
-    throw std::invalid_argument("--region, but no catalogue is of earthquakes");
-  if (quakes == all && (std::isfinite(options.from_time) || std::isfinite(options.to_time)))
-    throw std::invalid_argument(
-        "--from or --to is a number, but all catalogues are of earthquakes, expected a date such "
-        "as "
-        "1984-01-01");
-  expect_each("--label", options.labels.size(), "catalogue and region", all);
 }
 
 }  // namespace LSM::postproc
