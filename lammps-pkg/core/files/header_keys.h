@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file header_keys.h
-/// The table of all keys that our programs write into the headers of files. Users may add others.
+/// The keys that our programs themselves write into the headers of files. Scenes and users add
+/// others, which are texts about the model.
 #ifndef LSM_HEADER_KEYS_H
 #define LSM_HEADER_KEYS_H
 
