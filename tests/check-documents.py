@@ -147,18 +147,42 @@ def folded(line):
 
 
 def help_page(program):
-    """All options of a program, as its --help prints them."""
+    """All options of a program, as its --help prints them. What several commands have is there once."""
 
     def ask(*words):
         said = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout.strip("\n")
-        return "\n".join(folded(line.rstrip()) for line in said.splitlines())
+        return re.sub(r"\n{3,}", "\n\n", "\n".join(folded(line.rstrip()) for line in said.splitlines()))
 
-    name = Path(program).name
-    first = ask()
-    parts = [f"# Options of {name}\n\nAs printed by `--help`; a test compares.\n\n```\n{first}\n```"]
-    commands = re.search(r"^SUBCOMMANDS:\n(.*)", first, re.S | re.M) or re.search(r"^Subcommands:\n(.*)", first, re.S | re.M)
-    for command in re.findall(r"^  ([a-z]\w*)", commands[1], re.M) if commands else []:
-        parts.append(f"## {command}\n\n```\n{ask(command)}\n```")
+    name, first = Path(program).name, ask()
+    top = f"# Options of {name}\n\nAs printed by `--help`; a test compares."
+    listed = re.search(r"^Subcommands:\n((?:  .*\n)+)\n?", first, re.M)
+    if not listed:
+        return f"{top}\n\n```\n{first}\n```\n"
+    said = {command: ask(command) for command in re.findall(r"^  ([a-z]\w*)", listed[1], re.M)}
+    option = re.compile(r"^  \S.*\n(?: {8,}\S.*\n)*", re.M)
+    having = {}
+    for command, text in said.items():
+        for one in option.findall(text + "\n"):
+            having.setdefault(one, []).append(command)
+    shared = {}
+    for one, commands in having.items():
+        if len(commands) > 1:
+            shared.setdefault(tuple(commands), []).append(one)
+    several = "Options of several commands"
+    parts = [f"{top} \"Also\" names [{several.lower()}](#{anchor(several)}).",
+             "```\n" + first.replace(listed[0], f"Subcommands: {', '.join(said)}\n\n") + "\n```"]
+    parts[-1] = "\n".join(folded(line) for line in parts[-1].splitlines())
+    for command, text in said.items():
+        own = option.sub(lambda one: "" if len(having[one[0]]) > 1 else one[0], text + "\n")
+        own = re.sub(r"^\S[^\n]*:\n\n+(?=\S|\Z)", "", own.rstrip("\n") + "\n\n", flags=re.M).rstrip("\n")
+        also = [re.match(r"  (\S+)", one)[1].split(",")[-1] for one, commands in having.items() if len(commands) > 1 and command in commands]
+        parts.append(f"## {command}\n\n```\n{own}\n\n{folded('Also: ' + ', '.join(also))}\n```")
+    parts.append(f"## {several}")
+    for commands, options in sorted(shared.items(), key=lambda entry: -len(entry[0])):
+        of = "all commands" if len(commands) == len(said) else ", ".join(commands)
+        if 2 * len(commands) > len(said) > len(commands):
+            of = "all commands but " + ", ".join(command for command in said if command not in commands)
+        parts.append(f"### Of {of}\n\n```\n{''.join(options)}```")
     return "\n\n".join(parts) + "\n"
 
 
