@@ -169,8 +169,10 @@ def help_page(program):
         if len(commands) > 1:
             shared.setdefault(tuple(commands), []).append(one)
     several = "Options of several commands"
-    parts = [f"{top} \"Also\" names [{several.lower()}](#{anchor(several)}).",
-             "```\n" + first.replace(listed[0], f"Subcommands: {', '.join(said)}\n\n") + "\n```"]
+    parts = [
+        f"{top} \"Also\" names [{several.lower()}](#{anchor(several)}).",
+        "```\n" + first.replace(listed[0], f"Subcommands: {', '.join(said)}\n\n") + "\n```"
+    ]
     parts[-1] = "\n".join(folded(line) for line in parts[-1].splitlines())
     for command, text in said.items():
         own = option.sub(lambda one: "" if len(having[one[0]]) > 1 else one[0], text + "\n")

@@ -115,6 +115,12 @@ def test_examples(lmp, name):
         assert "Total wall time" in run(lmp, "-in in.example").out
 
 
+def test_input_of_the_readme(lmp):
+    Path("in.example").write_text(re.search(r"```\n(units .*?)```", (SOURCE / "lammps-pkg/README.md").read_text(), re.S)[1])
+    run(lmp, "-in in.example")
+    assert len([line for line in Path("small.csv").read_text().splitlines() if line[:1].isdigit()]) > 10
+
+
 def test_index():
     assert len(PAGES) > 10
     for name in PAGES:
