@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Numbers of sentences of all pages but the article: where in the CSV files of this folder each stands, or how it follows from them."""
 from pathlib import Path
+from statistics import median
 from typing import NamedTuple
 
 from lsm import LOADING, scaling
 from lsm.analysis import numbers_of
 from lsm.tables import read
 import speed_tables
+import validation_tables
 from values import Value
 
 FOLDER = Path(__file__).resolve().parent
@@ -29,7 +31,16 @@ class Cell(NamedTuple):
         return Value(self.key, float(rows[0][self.column]), float(rows[0][self.error]) if self.error else float("nan"), self.unit, 1, self.file)
 
 
-CELLS = ()
+CELLS = (
+    *(Cell(f"speed.slider.{blocks}", "speed/slider-size.csv", "ns_per_moving_block", {"blocks": blocks}) for blocks in ("1000", "1000000")),
+    Cell("single.ledger", "accuracy_fault.csv", "error_ledger", {"variant": "standard", "method": "located", "dt": "0.03"}),
+    Cell("absorbing_step.released", "accuracy_catalogues.csv", "released", {"dt": "0.12", "onset": "located"}, "released_error"),
+)
+COSTS = {
+    "contacts": "contacts of all discs", "location": "location of events", "ledger": "energy ledger", "dashpots": "dashpots of links and contacts",
+    "pressure": "pressure every step", "lists": "all lists rebuilt every 100 steps"
+}
+SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
 PEERS = {"harmonic": "bond harmonic", "bpm": "bond bpm/spring", "esys": "ESyS-Particle"}
 
 
@@ -53,14 +64,61 @@ def scaling_values():
 
 
 def speed_values():
-    """How many times as many particle-steps we make as others, on one and two cores."""
+    """How many times as many particle-steps we make as others on one and two cores, what options cost, and whole jobs."""
+    file = "speed/timings.csv"
     found = {(label, ranks): rounds for (label, _, ranks), rounds in speed_tables.timings("peers").items()}
     for key, label in PEERS.items():
         for ranks in (1, 2):
             if (label, ranks) in found:
                 ratio = speed_tables.ratio_of(found[label, ranks], found["ours", ranks])
-                yield Value(f"speed.{key}.{ranks}", ratio, float("nan"), "", len(found[label, ranks]), "speed/timings.csv")
+                yield Value(f"speed.{key}.{ranks}", ratio, float("nan"), "", len(found[label, ranks]), file)
+    yield Value("speed.esys_native.1", speed_tables.ratio_of(found["ESyS-Particle, -march=native", 1], found["ours", 1]), source=file)
+    for ranks in (1, 2):
+        native = [label for label, at in found if at == ranks and "native" in label and not label.startswith(("ours", "ESyS"))]
+        yield Value(f"speed.native.{ranks}", min(speed_tables.ratio_of(found[label, ranks], found["ours", ranks]) for label in native), source=file)
+        for what in "millions", "harmonic":
+            over = [float(row[f"{what}_{ranks}"]) for row in speed_tables.machines()]
+            for name, choose in ("least", min), ("most", max):
+                yield Value(f"speed.machines.{what}.{ranks}.{name}", choose(over), n=len(over), source="speed/machines.csv")
+        at = {label: speed_tables.middle(rounds) for (label, _, n), rounds in speed_tables.timings("paper").items() if n == ranks}
+        rest, shear = at["at rest; contacts between the blocks"], at["the reflecting fault in shear"]
+        yield Value(f"speed.shear.{ranks}", shear / rest, source=file)
+        yield Value(f"speed.shear_all.{ranks}", shear / at["at rest; contacts of all discs"], source=file)
+        yield Value(f"speed.unrecorded.{ranks}", at["the same; nothing recorded"] / shear, source=file)
+    features = {key[0]: rounds for key, rounds in speed_tables.timings("features").items()}
+    cost = {label: speed_tables.ratio_of(features[label], features["base of " + label]) for label in speed_tables.CHANGES}
+    for key, label in COSTS.items():
+        yield Value(f"speed.cost.{key}", cost[label], source=file)
+    laws = [cost[label] for label in speed_tables.LAWS]
+    for name, choose in ("least", min), ("most", max):
+        yield Value(f"speed.cost.law.{name}", choose(laws), n=len(laws), source=file)
+    for name in "contacts", "records":
+        yield Value(f"speed.saved.{name}", 1 - speed_tables.saved(SAVED[name]), source=file)
+    shear = {}
+    for row in read(FOLDER / "speed/shear.csv"):
+        shear.setdefault(row["what"], []).append(float(row["ns_per_particle_and_step"]))
+    for name, what in ("built", "in shear, lists built anew"), ("added", "in shear, pairs added"):
+        yield Value(f"speed.lists.{name}", median(shear[what]) - median(shear["before the shear, lists built anew"]), source="speed/shear.csv")
+    rows = read(FOLDER / "speed/slider.csv")
+    for scheme in "printed", "verlet":
+        dense, active = (median(float(row[key]) for row in rows if row["scheme"] == scheme) for key in ("scalar_s", "active_s"))
+        yield Value(f"speed.active.{scheme}", dense / active, source="speed/slider.csv")
+    rates = {row["run"]: float(row["time_per_core_hour"]) for row in read(FOLDER / "speed/whole-job.csv")}
+    for name, run in ("same", "ours_0.06"), ("usual", "ours_0.12"):
+        yield Value(f"speed.job.{name}", rates[run] / rates["ESyS-Particle"], source="speed/whole-job.csv")
+    rates = {(row["dt"], row["onset"]): float(row["time_per_core_hour"]) for row in read(FOLDER / "accuracy_catalogues.csv")}
+    yield Value("absorbing_step.gain", rates["0.12", "located"] / rates["0.03", "located"], source="accuracy_catalogues.csv")
+    jobs = {(row["job"], row["part"]): float(row["seconds"]) for row in read(FOLDER / "speed/jobs.csv")}
+    first = {part: seconds for (job, part), seconds in jobs.items() if job == "first command"}
+    for part, seconds in {**first, "total": sum(first.values())}.items():
+        yield Value(f"speed.first.{part}", seconds / 60, unit="minutes", source="speed/jobs.csv")
+    yield Value("speed.leaky", jobs["380000 steps", "leaky"] / jobs["380000 steps", "absorbing"], source="speed/jobs.csv")
+    counts = [row for row in read(FOLDER / "speed/scale.csv") if row["ranks"] == "8"]
+    yield Value("speed.share.8", max(float(row["largest_share"]) for row in counts) - 1, source="speed/scale.csv")
+    for name, row in (("120", counts[0]), ("1890", counts[-1])):
+        yield Value(f"speed.ghosts.{name}", float(row["ghosts"]), source="speed/scale.csv")
+        yield Value(f"speed.kilobytes.{name}", float(row["bytes"]) / 1000, source="speed/scale.csv")
 
 
 def all_values(postproc):
-    return [*(cell.value() for cell in CELLS), *slider_values(postproc), *scaling_values(), *speed_values()]
+    return [*(cell.value() for cell in CELLS), *slider_values(postproc), *scaling_values(), *speed_values(), *validation_tables.all_values(postproc)]

@@ -96,7 +96,6 @@ for part; do
       [ ! -e accuracy_catalogues.csv ] ||
         gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../inputs/studies/work-precision.gp
       [ ! -e regime-map.csv ] || gnuplot -e "table = 'regime-map.csv'" ../inputs/studies/regime-map.gp
-      gnuplot accuracy.gp
       gnuplot packing.gp
       PYTHONPATH=.:../inputs/studies python3 speed/speed_tables.py speed
       gnuplot ../inputs/studies/walk.gp

@@ -34,6 +34,7 @@ import page_values  # noqa: E402
 import periods  # noqa: E402
 import slip_or_exchange  # noqa: E402
 import speed_tables  # noqa: E402
+import validation_tables  # noqa: E402
 import values  # noqa: E402
 import walk  # noqa: E402
 from lsm import LOADING, analysis, paper, scaling, slip, statements, summary  # noqa: E402
@@ -341,21 +342,6 @@ def widths_table():
                 found.setdefault((width, length), []).append([float(one) for one in numbers])
     rows = [[f"{length:g}, {width:g}", f"{len(some)}", *(spread(one) for one in zip(*some))] for (width, length), some in sorted(found.items())]
     return table(["length, width", "packings", "ruptures >= 0.01", "s*", "of the whole fault", "their share of the sum of s^2, %"], rows)
-
-
-def order_of_sums_table():
-    """Runs of the campaign, and the same runs with forces summed in another order."""
-    again, rows = FOLDER / "order-of-sums", []
-    paths = [path for some in faults(folder=again).values() for path in some]
-    former = {(row["length"], row["seed"]): row for row in summaries()}
-    for path, row in zip(paths, summaries(again)):
-        before = former[row["length"], row["seed"]]
-        tests = numbers_of("compare", CAMPAIGN / path.name, path, "--from", LOADING, "--threshold", "1e-3", "--replicas", 400)["tests"]
-        both = [tuple(number(one, key) for one in (before, row)) for key in ("events_0.001", "events_0.01", "largest")]
-        fits = [", ".join(of(one, key) for one in (before, row)) for key in ("exponent_1e-3:1e-2", "exponent_1e-2:1e-1", "gamma_0.001")]
-        rows.append([packing_of(row), *(f"{a:.4g}, {b:.4g}" for a, b in both), *fits, *(f"{test['p']:.2f}" for test in tests)])
-    head = ["length, packing", "events >= 1e-3, before, after", "events >= 1e-2", "largest", "exponent 1e-3 to 1e-2", "1e-2 to 1e-1", "gamma >= 1e-3"]
-    return turned([*head, "p, sizes", "p, times"], rows)
 
 
 def variance_table():
@@ -1002,7 +988,7 @@ def laws_table():
 
 
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
-TABLES |= {name: lambda made=made: table(*made()) for name, made in speed_tables.TABLES.items()}
+TABLES |= {name: lambda made=made: table(*made()) for name, made in (speed_tables.TABLES | validation_tables.TABLES).items()}
 TABLES |= {name: lambda name=name: table(*walk.table(shown, name)) for name in walk.TABLES} | {"lattice": lambda: turned(*walk.lattice(shown))}
 
 NEW_FORM = ("article", "validation", "beyond", "methods", "speed")

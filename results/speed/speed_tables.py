@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of speed.md from timings.csv and slider-modes.csv, as head and rows; tables.py in the folder above writes them into the page.
+"""Tables of speed.md from the CSV files beside this one, as head and rows; tables.py in the folder above writes them into the page.
 
 speed_tables.py BASE: draws them as BASE.png and BASE.svg
 """
@@ -75,12 +75,82 @@ CHANGES = ("contacts of all discs", "nothing recorded", "location of events", "e
            "velocity weakening", "rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)", "links that can break", "no viscosity",
            "dashpots of links and contacts", "pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps")
 
+LAWS = ("static friction above dynamic", "slip weakening", "velocity weakening", "rate and state (ageing)", "rate and state (slip)")
+
 
 def speed_changes_table():
     names = {key[0]: rounds for key, rounds in timings("features").items()}
     cells = [(label, f"{ratio_of(names[label], names['base of ' + label]):.2f}") for label in CHANGES]
     head = ["one thing changed, length 1890, 2 ranks", "time of a step, ratio", *["another", "ratio"] * 3]
     return head, [sum(cells[k::4], ()) for k in range(4)]
+
+
+def machines():
+    """Million particle-steps per second, and how many times those of bond harmonic, on 1 and 2 ranks of each machine; the first is that of the table of peers."""
+    found = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}
+    here = {"machine": "Intel Xeon"}
+    for ranks in (1, 2):
+        here |= {
+            f"millions_{ranks}": f"{1e3 / middle(found['ours', ranks]):.0f}",
+            f"harmonic_{ranks}": f"{ratio_of(found['bond harmonic', ranks], found['ours', ranks]):.2f}"
+        }
+    return [here, *read(FOLDER / "machines.csv")]
+
+
+def speed_machines_table():
+    keys = "millions_1", "harmonic_1", "millions_2", "harmonic_2"
+    head = ["length 1890, -O3", "million particle-steps/s, 1 rank", "over `bond harmonic`", "2 ranks", "over `bond harmonic`"]
+    return head, [[row["machine"], *(row[key] for key in keys)] for row in machines()]
+
+
+LEFT_OUT = {  # what a step takes without it, of a step with it: rows of "causes" (length 480, absorbing fault in shear), or inverse ratios of "features"
+    "contacts of discs of the same block": ("causes", "contacts between the blocks only"),
+    "rows of the catalogue with places and ruptures": ("causes", "neither location nor ruptures"), "all records": ("causes", "nothing recorded"),
+    "dashpots of links and contacts": ("features", "dashpots of links and contacts"), "energy balance": ("features", "energy ledger"),
+    "links that can break": ("features", "links that can break"), "rate and state": ("features", "rate and state (ageing)"),
+    "pressure at every step": ("features", "pressure every step"), "lists built anew every 100 steps": ("features",
+                                                                                                        "all lists rebuilt every 100 steps")
+}
+
+
+def saved(name):
+    table, label = LEFT_OUT[name]
+    found = {key[0]: rounds for key, rounds in timings(table).items()}
+    if table == "causes":
+        return ratio_of(found[label], found["in shear as in the campaign"])
+    return 1 / ratio_of(found[label], found["base of " + label])
+
+
+def speed_saved_table():
+    return ["not in the scene", "time of a step over that with it"], [[name, f"{saved(name):.2f}"] for name in LEFT_OUT]
+
+
+def speed_jobs_table():
+    """A default run of 1.2e6 steps, from the steady state of the reflecting fault with ruptures recorded."""
+    found, out = timings("campaign"), []
+    for length in sorted({key[1] for key in found}):
+        rounds = {ranks: one for (_, at, ranks), one in found.items() if at == length}
+        one = [middle(rounds[ranks]) for ranks in (1, 2)]
+        atoms = middle(rounds[1], "atoms")
+        out.append([f"{length}", f"{atoms:.0f}", *(f"{ns:.1f}" for ns in one), *(f"{ns * atoms * 1.2e6 * 1e-9 / 60:.1f}" for ns in one)])
+    return ["length", "particles", "ns for a particle and step, 1 rank", "2 ranks", "1.2e6 steps: minutes, 1 rank", "2 ranks"], out
+
+
+def speed_lattice_table():
+    """The lattice of TPV5 without friction."""
+    return ["cubic lattice, one core", "ns for a node and step", "over ours"], [
+        [row["program"], f"{float(row['ns']):.0f}", f"{float(row['over_ours']):.2g}"] for row in read(FOLDER.parent / "rupture_3d-peers.csv")
+    ]  # yapf: disable
+
+
+def speed_analysis_table():
+    groups = {}
+    for row in read(FOLDER / "analysis.csv"):
+        groups.setdefault(row["command"], []).append(row)
+    return ["postproc, 1e7 events", "seconds", "memory, GB"], [
+        [name.replace("--", ""), *(f"{scale * statistics.median(float(row[key]) for row in some):.2g}" for key, scale in (("seconds", 1), ("kilobytes", 1e-6)))]
+        for name, some in groups.items()
+    ]  # yapf: disable
 
 
 def picture(base):
@@ -125,7 +195,9 @@ def speed_modes_table():
 
 
 TABLES = {
-    "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-lengths": speed_lengths_table, "speed-changes": speed_changes_table
+    "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-machines": speed_machines_table, "speed-lengths": speed_lengths_table,
+    "speed-changes": speed_changes_table, "speed-saved": speed_saved_table, "speed-jobs": speed_jobs_table, "speed-lattice": speed_lattice_table,
+    "speed-analysis": speed_analysis_table
 }
 
 if __name__ == "__main__":

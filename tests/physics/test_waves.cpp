@@ -44,7 +44,7 @@ TEST_F(Waves, DispersionAsInTheClosedForm) {
 }
 
 TEST_F(Waves, DispersionAtTenSpacings) {
-  // As stated in results/rupture-benchmark.md: slower than long waves by 1.5 % (P) and 0.4 % (S)
+  // As stated in results/validation.md: slower than long waves by 1.5 % (P) and 0.4 % (S)
   // along the rows, and by 1.2 % across them.
   const double k = 0.2 * lattice_waves::pi;
   const auto slow = [k](double kx, double ky, bool p) {

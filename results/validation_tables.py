@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables of validation.md, as head and rows, and the numbers of its sentences; tables.py writes them into the page."""
+import itertools
+import math
+from pathlib import Path
+
+import faults
+import rupture_benchmark
+import values
+from lsm import LOADING, slip, summary
+from lsm.tables import read
+from values import Value
+
+FOLDER = Path(__file__).resolve().parent
+FLAT = {"TPV205": "rupture_benchmark-stations.csv", "TPV3": "rupture_tpv3-stations.csv"}
+STEPS = {"0.03": "fault", "0.015": "half"}  # of the leaky fault, packing 4: the runs with each
+
+
+def order_of(before, after, key):
+    """Of convergence from one spacing to the next."""
+    return math.log(before[key] / after[key]) / math.log(before["spacing"] / after["spacing"])
+
+
+def with_orders(runs, show):
+    """A cell for each run, with the order of convergence from the one before it. show: (key, factor, digits)"""
+    key, factor, places = show
+    cells = [f"{factor * run[key]:.{places}f}" for run in runs]
+    return cells[:1] + [f"{cell} ({order_of(a, b, key):.1f})" for cell, (a, b) in zip(cells[1:], itertools.pairwise(runs))]
+
+
+def flat_runs(name):
+    """Differences from the boundary integral over all stations, of each spacing."""
+    rows = [row for row in read(FOLDER / FLAT[name]) if row["reference"].startswith("boundary")]
+    texts = ("run", "reference")
+    numbers = [{key: value if key in texts else float(value) for key, value in row.items()} for row in rows]
+    groups = itertools.groupby(numbers, lambda row: row["spacing"])
+    return [rupture_benchmark.summary(list(some)) | {"spacing": spacing} for spacing, some in groups]
+
+
+FLAT_ROWS = {
+    "arrival, rms (s)": ("arrival", 1, 4), "largest difference of an arrival (s)": ("arrival_max", 1, 3), "slip, rms (%)": ("slip", 100, 2),
+    "largest difference of a slip (%)": ("slip_max", 100, 2), "slip rate, relative L2 (%)": ("rate_l2", 100, 1),
+    "peak slip rate, rms (%)": ("peak", 100, 1)
+}
+
+
+def rupture_flat_table():
+    """TPV205-2D and TPV3-2D: until 6 s, differences from a boundary integral."""
+    runs = {name: flat_runs(name) for name in FLAT}
+    spacings = [f"{run['spacing']:g} m" for run in runs["TPV205"]]
+    out = [[f"{name}: {text}", *with_orders(some, show)] for name, some in runs.items() for text, show in FLAT_ROWS.items()]
+    out = [row + ["-"] * (len(spacings) + 1 - len(row)) for row in out]
+    return ["difference until 6 s (order of convergence)", *spacings], out
+
+
+def plane_runs():
+    return [{key: value if key == "run" else float(value or "nan")
+             for key, value in row.items()} for row in read(FOLDER / "rupture_3d-convergence.csv")]
+
+
+PLANE_ROWS = {
+    "arrival, rms (s)": ("arrival", 1, 3), "largest difference of an arrival (s)": ("arrival_max", 1, 2), "mean of the arrivals (s)": ("mean", 1, 3),
+    "scatter of the arrivals (s)": ("scatter", 1, 3), "slip at 12 s, rms (%)": ("slip", 100, 1),
+    "largest difference of a slip (%)": ("slip_max", 100, 1), "slip over time, relative L2 (%)": ("slip_l2", 100, 1),
+    "slip rate, relative L2 (%)": ("rate_l2", 100, 0), "the same below 1 Hz (%)": ("rate_low_l2", 100, 0)
+}
+
+
+def rupture_plane_table():
+    """TPV5: until 12 s, differences from a boundary integral, of the series of spacings and of runs with one value changed."""
+    runs = [run for run in plane_runs() if run["run"] == f"{run['spacing']:g} m"]
+    return ["difference at ten stations (order of convergence)", *(run["run"] for run in runs)], [
+        [text, *(with_orders(runs, show) if show[0] in ("arrival", "slip_l2", "rate_l2", "rate_low_l2") else
+                 [f"{show[1] * run[show[0]]:.{show[2]}f}" for run in runs])] for text, show in PLANE_ROWS.items()
+    ]  # yapf: disable
+
+
+def crack_table():
+    """The self-similar crack: the factor of its slip beside that of the closed form."""
+    rows = read(FOLDER / "rupture_crack.csv")
+    spacings = dict.fromkeys(row["dx"] for row in rows)
+    cells = {(row["speed"], row["dx"]): row for row in rows}
+    speeds = {row["speed"]: row["exact"] for row in rows}
+    return ["speed of the tips / S-wave", "exact", *(f"{dx} m" for dx in spacings)], [
+        [speed, exact, *(cells[speed, dx]["factor"] for dx in spacings)] for speed, exact in speeds.items()
+    ]  # yapf: disable
+
+
+def single_event_table():
+    """One event with several time steps beside one with a much smaller step."""
+    rows = [row for row in read(FOLDER / "accuracy_fault.csv") if row["variant"] == "standard" and row["method"] == "located"]
+    keys = {"size": "error_size", "displacement": "error_profile", "energy balance": "error_ledger"}
+    return ["time step", *(f"{name}, relative" for name in keys), "arrival at a station", "CPU time (s)"], [
+        [row["dt"], *(f"{float(row[key]):.1e}" for key in keys.values()), f"{float(row['error_arrival']):.2g}", f"{float(row['seconds']):.2g}"]
+        for row in rows
+    ]  # yapf: disable
+
+
+def waves_table():
+    """Speed of short waves of the lattice over that of long ones."""
+    rows = {(row["wave"], row["spacings per wave"]): row for row in read(FOLDER / "waves_lattice.csv") if row["angle (degrees)"] == "0"}
+    free = {row["spacings per wave"]: row["against the half-space (%)"] for row in read(FOLDER / "waves_rayleigh.csv")}
+    return ["discs in a wavelength", "P-waves (%)", "S-waves (%)", "Rayleigh waves (%)"], [
+        [n, *(f"{float(rows[wave, n]['speed / that of long waves - 1 (%)']):.2f}" for wave in "PS"), f"{float(free[n]):.2f}"] for n in ("40", "20", "10", "6")
+    ]  # yapf: disable
+
+
+SCHEMES = {"printed": "printed", "verlet": "velocity Verlet", "rk4": "rk4, located switches"}
+
+
+def slider_schemes_table():
+    """Slip of one event of the block-slider at a time step of 0.05 and its half."""
+    rows = {(row["scheme"], row["dt"]): row for row in read(FOLDER / "accuracy_slider.csv")}
+    base = float(rows["printed", "0.05"]["seconds"])
+    out = []
+    for scheme, name in SCHEMES.items():
+        one, half = rows[scheme, "0.05"], rows[scheme, "0.025"]
+        order = math.log2(float(one["error_profile"]) / float(half["error_profile"]))
+        out.append(
+            [name, f"{float(one['error_profile']):.1e}", f"{float(one['error_size']):.1e}", f"{order:.1f}", f"{float(one['seconds']) / base:.2g}"])
+    return ["scheme, time step 0.05", "slip, relative", "size, relative", "order", "run time over that of the printed scheme"], out
+
+
+def same_packing_table():
+    """ESyS-Particle and ours on one packing."""
+    names = {"ESyS-Particle": "ESyS-Particle", "ours_0.06": "ours", "ours_0.12": "ours, small masses raised"}
+    return ["program, time step", "events >= 0.001", ">= 0.01", ">= 0.1", "p of sizes", "p of times", "time units in a core-hour"], [
+        [f"{names[row['run']]}, {row['dt']}", row["events_3"], row["events_2"], row["events_1"],
+         *(f"{float(row[key]):.2f}" if row[key] else "-" for key in ("p_size", "p_time")), f"{float(row['time_per_core_hour']):.2g}"]
+        for row in read(FOLDER / "speed/whole-job.csv")
+    ]  # yapf: disable
+
+
+def leaky_step_table():
+    """The leaky fault with its time step and with half of it."""
+    found = values.read()
+    keys = {"drops": "drops >= 1e-4 in 1000 time units", "slips": "slips >= 0.1", "exponent": "exponent", "gamma": "gamma", "B": "B"}
+
+    def cell(key, step):
+        one = found[f"leaky_step.{key}.{step}"]
+        return values.text_of(one.value, one.error, "()")
+
+    return ["time step", *keys.values()], [[step, *(cell(key, step) for key in keys)] for step in STEPS]
+
+
+def extremes_table():
+    """What became of stiff and extreme cases."""
+    groups = {}
+    for row in read(FOLDER / "extremes.csv"):
+        groups.setdefault((row["group"], row["outcome"]), []).append(row["ledger"])
+    return ["case", "outcome", "energy balance, largest error"], [
+        [group, outcome, f"{max(map(float, some)):.1e}" if some[0] else ""] for (group, outcome), some in groups.items()
+    ]  # yapf: disable
+
+
+TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
+
+# ---- numbers of sentences
+
+
+def leaky_values(postproc):
+    """Rates, exponent, gamma and B of the leaky fault with its time step and with half of it, in the time that both have."""
+    paths = {step: FOLDER / f"slip/{name}_120_4.catalogue.csv.xz" for step, name in STEPS.items()}
+    end = float(faults.loaded(paths["0.015"])["t_end"].max())
+    yield Value("leaky_step.time", end - LOADING, unit="time", source="slip/half_120_4.catalogue.csv.xz")
+    for step, path in paths.items():
+        events = faults.loaded(path)
+        within = events["t_end"] <= end
+        excess = faults.excess_of(path)[within]
+        events = events[within]
+        events.header["time_span"] = end - LOADING
+        run, source = faults.Run(path, "leaky", 120, 4, events), str(path.relative_to(FOLDER))
+        yield Value(f"leaky_step.drops.{step}", *faults.rate_of(run, events["size"] >= 1e-4), "1/1000", 1, source)
+        yield Value(f"leaky_step.slips.{step}", *faults.rate_of(run, (events["size"] >= 0.1) & (excess > slip.SLIP)), "1/1000", 1, source)
+        row, = summary.rows_of(postproc, [path], ["1e-4"], [faults.RANGE], begin=LOADING, end=end, shortest=0)
+        for key, column, error in (("exponent", f"exponent_{faults.RANGE}", f"error_{faults.RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
+                                   ("B", "B_0.0001", None)):
+            yield Value(f"leaky_step.{key}.{step}", float(row[column]), float(row[error]) if error else math.nan, "", 1, source)
+
+
+def rupture_values():
+    """Differences from the boundary integrals and PyLith."""
+    for name in FLAT:
+        for run in flat_runs(name):
+            for key in ("arrival", "slip", "rate_l2"):
+                yield Value(f"{name.lower()}.{key}.{run['spacing']:g}", run[key], math.nan, "", 19, FLAT[name])
+    stations = [row for row in read(FOLDER / FLAT["TPV205"]) if row["reference"].startswith("PyLith") and row["spacing"] == "50"]
+    found = rupture_benchmark.summary([{key: value if key in ("run", "reference") else float(value)
+                                        for key, value in row.items()} for row in stations])
+    for key in ("arrival", "slip"):
+        yield Value(f"tpv205.pylith.{key}", found[key], math.nan, "", len(stations), FLAT["TPV205"])
+    for run in plane_runs():
+        for key in ("arrival", "arrival_max", "mean", "slip", "slip_max", "rate_l2", "rate_low_l2"):
+            yield Value(f"tpv5.{key}.{run['run'].replace(' m', '', 1).replace(' ', '_')}", run[key], math.nan, "", 10, "rupture_3d-convergence.csv")
+    runs = {run["run"]: run for run in plane_runs()}
+    yield Value("tpv5.order.scatter", order_of(runs["200 m"], runs["150 m"], "scatter"), math.nan, "", 10, "rupture_3d-convergence.csv")
+
+
+def all_values(postproc):
+    return [*leaky_values(postproc), *rupture_values()]
