@@ -221,7 +221,7 @@ set label 1 "{'' if column == 2 else f'x = {x / 1000:g} km'}" at graph {0.98 if 
 plot """ + ", ".join(f"table using ($1 == {n} && $2 == {x:.17g} ? $3 : NaN):{cell} with lines {line} notitle"
                      for n, line in enumerate(lines, 1)) + "\n"
     script += f"""unset label 1; set lmargin at screen 0.065; set rmargin at screen 0.985; set xrange [*:*]; set yrange [*:*]; set format x "%g"
-set tmargin at screen {0.985 - high * len(places) - 30 / height:.4f}; set bmargin at screen {high:.4f}; set ylabel "Arrival (s)" offset 2.5,0; set ytics autofreq
+set tmargin at screen {0.985 - high * len(places) - 30 / height:.4f}; set bmargin at screen {high:.4f}; set ylabel "Arrival (s)" offset 1.5,0; set ytics autofreq
 set xlabel "Place along the fault (km); above: time (s); right: slip less that of {last}"
 set key at screen 0.5,0.004 bottom center horizontal maxcols 4 samplen 3 spacing 1.15 noreverse Right
 plot """

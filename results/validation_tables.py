@@ -28,12 +28,14 @@ def with_orders(runs, show):
     return cells[:1] + [f"{cell} ({order_of(a, b, key):.1f})" for cell, (a, b) in zip(cells[1:], itertools.pairwise(runs))]
 
 
+def stations_of(name, chosen):
+    texts = ("run", "reference")
+    return [{key: value if key in texts else float(value) for key, value in row.items()} for row in read(FOLDER / FLAT[name]) if chosen(row)]
+
+
 def flat_runs(name):
     """Differences from the boundary integral over all stations, of each spacing."""
-    rows = [row for row in read(FOLDER / FLAT[name]) if row["reference"].startswith("boundary")]
-    texts = ("run", "reference")
-    numbers = [{key: value if key in texts else float(value) for key, value in row.items()} for row in rows]
-    groups = itertools.groupby(numbers, lambda row: row["spacing"])
+    groups = itertools.groupby(stations_of(name, lambda row: row["reference"].startswith("boundary")), lambda row: row["spacing"])
     return [rupture_benchmark.summary(list(some)) | {"spacing": spacing} for spacing, some in groups]
 
 
@@ -86,13 +88,21 @@ def crack_table():
     ]  # yapf: disable
 
 
+CHANGED = {
+    "step": "contacts begin at the end of a step", "force": "viscosity as a force", "floor 0.04": "masses of 0.04 at least",
+    "floor 0.09": "masses of 0.09 at least"
+}
+
+
 def single_event_table():
-    """One event with several time steps beside one with a much smaller step."""
-    rows = [row for row in read(FOLDER / "accuracy_fault.csv") if row["variant"] == "standard" and row["method"] == "located"]
+    """One event with several time steps, and at one step with other schemes and masses, beside one with a much smaller step."""
+    rows = [row for row in read(FOLDER / "accuracy_fault.csv") if row["variant"] == "standard"]
     keys = {"size": "error_size", "displacement": "error_profile", "energy balance": "error_ledger"}
+    some = [(row, row["dt"]) for row in rows if row["method"] == "located"]
+    some += [(row, f"0.03, {text}") for method, text in CHANGED.items() for row in rows if (row["method"], row["dt"]) == (method, "0.03")]
     return ["time step", *(f"{name}, relative" for name in keys), "arrival at a station", "CPU time (s)"], [
-        [row["dt"], *(f"{float(row[key]):.1e}" for key in keys.values()), f"{float(row['error_arrival']):.2g}", f"{float(row['seconds']):.2g}"]
-        for row in rows
+        [name, *("-" if row[key] == "nan" else f"{float(row[key]):.1e}" for key in keys.values()), f"{float(row['error_arrival']):.2g}",
+         f"{float(row['seconds']):.2g}"] for row, name in some
     ]  # yapf: disable
 
 
@@ -179,21 +189,19 @@ def leaky_values(postproc):
 
 
 def rupture_values():
-    """Differences from the boundary integrals and PyLith."""
-    for name in FLAT:
-        for run in flat_runs(name):
-            for key in ("arrival", "slip", "rate_l2"):
-                yield Value(f"{name.lower()}.{key}.{run['spacing']:g}", run[key], math.nan, "", 19, FLAT[name])
-    stations = [row for row in read(FOLDER / FLAT["TPV205"]) if row["reference"].startswith("PyLith") and row["spacing"] == "50"]
-    found = rupture_benchmark.summary([{key: value if key in ("run", "reference") else float(value)
-                                        for key, value in row.items()} for row in stations])
+    """Differences of the finest lattices from the boundary integrals and PyLith."""
+    finest = {name.lower(): (flat_runs(name)[-1], FLAT[name]) for name in FLAT}
+    plane = {run["run"]: run for run in plane_runs()}
+    finest["tpv5"] = plane["150 m"], "rupture_3d-convergence.csv"
+    for name, (run, file) in finest.items():
+        for key in ("rate_l2",) if name == "tpv3" else ("arrival", "slip", "rate_l2"):
+            yield Value(f"{name}.{key}", run[key], source=file)
+    yield Value("tpv5.rate_low_l2", plane["150 m"]["rate_low_l2"], source="rupture_3d-convergence.csv")
+    yield Value("tpv5.mean.soft", plane["200 m kt 1.5"]["mean"], source="rupture_3d-convergence.csv")
+    yield Value("tpv5.order.scatter", order_of(plane["200 m"], plane["150 m"], "scatter"), source="rupture_3d-convergence.csv")
+    pylith = rupture_benchmark.summary(stations_of("TPV205", lambda row: row["reference"].startswith("PyLith") and row["spacing"] == "50"))
     for key in ("arrival", "slip"):
-        yield Value(f"tpv205.pylith.{key}", found[key], math.nan, "", len(stations), FLAT["TPV205"])
-    for run in plane_runs():
-        for key in ("arrival", "arrival_max", "mean", "slip", "slip_max", "rate_l2", "rate_low_l2"):
-            yield Value(f"tpv5.{key}.{run['run'].replace(' m', '', 1).replace(' ', '_')}", run[key], math.nan, "", 10, "rupture_3d-convergence.csv")
-    runs = {run["run"]: run for run in plane_runs()}
-    yield Value("tpv5.order.scatter", order_of(runs["200 m"], runs["150 m"], "scatter"), math.nan, "", 10, "rupture_3d-convergence.csv")
+        yield Value(f"tpv205.pylith.{key}", pylith[key], source=FLAT["TPV205"])
 
 
 def all_values(postproc):

@@ -25,7 +25,7 @@ CHOSEN = {
     "sizes that are counted, and units of rates": "1e-4 0.001 0.002 0.003 1e-3 3e-3 0.01 0.1 1 100 1000",
     "times: loading, a P-wave through the blocks, memories and steps": "8000 15 0.3 4 0.03 0.12",
     "thresholds of ruptures, in velocities of the plates": "20 50",
-    "benchmarks: spacings, stations, times, frequency, and discs in a wavelength": "50 100 150 200 19 1 10 20",
+    "benchmarks: spacings, stations, times, frequency": "50 100 150 200 19 1",
     "our tolerances": "0.07 1.22",
     "packings": "4 5 6 11 12 13",
 }
