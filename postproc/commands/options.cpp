@@ -79,7 +79,7 @@ PowerLine parse_guide(std::string_view text) {
 void UnitOptions::add_to(OptionGroup group) {
   group.add("--unit-length", length,
             "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
-            "--density everything is in SI (postproc units)",
+            "--density everything is in SI (postproc/units.md)",
             positive());
   group.add("--p-speed", p_speed, "Speed of P-waves in the rock, m/s", positive());
   group.add("--density", density, "Density of the rock, kg/m^3", positive());
