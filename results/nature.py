@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Models ranked by the distance of their inter-event times, over their mean, to those of earthquakes.
 
-nature.py POSTPROC                                      makes nature.csv, .png, .svg, .table.csv and .table1.csv of nature.md
+nature.py POSTPROC                                      makes nature.csv, .png, .svg and .table.csv
 nature.py POSTPROC CATALOGUE --threshold SIZE... [--from TIME] --json FILE   the numbers of one catalogue, for a study
 
 Rows are labels above a smallest size: those of earthquakes first, then by distance. Numbers are means over the catalogues of a
@@ -208,31 +208,6 @@ def table(rows):
     return [{key: row[key] for key in ("label", "threshold", "catalogues", "events")} | measured(row, *keys) for row in rows]
 
 
-def table1(rows):
-    """The paper's Table 1: the rows that it prints, and for each row one with delta free and one with delta held at 1."""
-    columns = "origin,threshold,n,gamma,gamma_error,delta,delta_error,B,B_error,C,C_error,chi2_per_dof,ks,p,p_error,rejected,source,method,shortest,"
-    empty = dict.fromkeys((columns + "degenerate").split(","), "")
-    out = [
-        empty | dict(origin="printed", source=source, gamma=gamma, delta=delta, B=b, C=c)
-        for source, gamma, delta, b, c in (("seismicity (Corral 2004)", "0.67", "0.98", "1.58", "0.50"), ("LSM", "0.995", "1.00", "15.21", "0.0573"),
-                                           ("Block-Slider", "0.0", "1.00", "100.0", "0.25"))
-    ]
-    for row in rows:
-        many = f"{row['catalogues']} catalogue{'s' if row['catalogues'] > 1 else ''}"
-        for method, prefix in (("maximum likelihood", "free_"), ("maximum likelihood, δ = 1 held", "")):
-            line = dict(origin="ours", threshold=row["threshold"], n=row["events"], source=row["label"], method=f"{method}, {many}")
-            if prefix and row["without_delta"]:
-                line["degenerate"] = row["why"] if row["catalogues"] == 1 else f"in {row['without_delta']} of {many}: {row['why']}"
-            elif math.isnan(row["gamma"][0]):
-                line["degenerate"] = "the times do not determine it"
-            else:
-                found = measured(row, *(prefix + key for key in ("gamma", "delta", "B", "C")))
-                line |= {key.removeprefix(prefix): value for key, value in found.items()}
-                line |= {} if prefix else dict(delta=1, delta_error=0)
-            out.append(empty | line)
-    return out
-
-
 def curves(rows):
     """The points of the picture, as (panel, number of the row, x, y, error, name), of the nearest row of each label."""
     out, seen = [], set()
@@ -318,7 +293,7 @@ set xlabel "{x}"; set ylabel "{y}"
 
 
 def write(rows, base):
-    """The tables BASE.csv, BASE.table.csv and BASE.table1.csv."""
+    """The tables BASE.csv and BASE.table.csv."""
     write_table(f"{base}.table.csv", [
         "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of the first row, size_distance: of the magnitudes "
         "above the smallest, over their mean",
@@ -327,10 +302,6 @@ def write(rows, base):
         "errors: from the scatter between catalogues of a label (of two, half of their difference), or for one catalogue its own (distances: blocks of "
         "consecutive values resampled)"
     ], table(rows))
-    write_table(f"{base}.table1.csv", [
-        "f(theta) = C theta^(gamma-1) exp(-theta^delta / B)",
-        "printed: Table 1 of the paper, unit of theta not stated; ours: theta in multiples of the mean, by maximum likelihood"
-    ], table1(rows))
     write_table(f"{base}.csv", [
         "panels: distance (rank), and of the nearest row of each label times (density over time / mean), sizes (share of the events with magnitudes "
         "of at least x above the smallest), plane (burstiness, memory)"
@@ -353,7 +324,7 @@ def together(paths, out):
 
 
 def published(postproc):
-    """The rows of nature.md."""
+    """The rows of the published catalogues."""
     with tempfile.TemporaryDirectory() as folder:
         sums = {label: together(MODELS[f"fault {length}"][:many], Path(folder) / f"{length}.csv") for label, (length, many) in SUMS.items()}
         return rows_of(postproc, MODELS | sums)

@@ -4,9 +4,9 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from lsm import LOADING, scaling
-from lsm.analysis import numbers_of
-from lsm.tables import read
+from lsm import LOADING, paper, scaling
+from lsm.analysis import mean_and_error, numbers_of
+from lsm.tables import number, read
 import speed_tables
 import validation_tables
 from values import Value
@@ -28,7 +28,7 @@ class Cell(NamedTuple):
         rows = [row for row in read(FOLDER / self.file) if all(row[name] == text for name, text in self.where.items())]
         if len(rows) != 1:
             raise ValueError(f"{self.key}: {len(rows)} rows of {self.file} have {self.where}, expected one")
-        return Value(self.key, float(rows[0][self.column]), float(rows[0][self.error]) if self.error else float("nan"), self.unit, 1, self.file)
+        return Value(self.key, float(rows[0][self.column]), number(rows[0], self.error) if self.error else float("nan"), self.unit, 1, self.file)
 
 
 CELLS = (
@@ -38,6 +38,22 @@ CELLS = (
 )
 COSTS = {"ledger": "energy ledger", "dashpots": "dashpots of links and contacts", "pressure": "pressure every step"}
 SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
+NATURE = (("distance", "fault_1890", "fault 1890", "0.0001"), ("distance", "california_2.5", "Southern California", "5623.4132519034911"),
+          ("distance", "two_faults", "2 faults 945 apart", "0.0001"), ("b", "fault_1890", "fault 1890", "0.0001"),
+          ("b", "california", "Southern California", "1000"), ("after", "california", "Southern California",
+                                                               "1000"), ("after", "weakening", "fault 120 weakening", "0.001"))
+WALK = (("to_fault", "springs", "chain-512"), ("to_fault", "blocks", "bulk-512"), ("short", "springs_256", "chain-256"),
+        ("local", "springs", "ruptures-chain-512"), ("local", "blocks", "ruptures-bulk-512"), ("local", "fault", "ruptures-fault"))
+FAST, SLOW = {"run": "2.5e-4_no_leaps"}, {"run": "2.5e-8_leaps_2.5e-4"}
+CHAIN = {"blocks": "256", "seed": "1"}
+BEYOND = (
+    *(Cell(f"nature.{column}.{name}", "nature.table.csv", column, dict(label=label, threshold=least), f"{column}_error")
+      for column, name, label, least in NATURE),
+    *(Cell(f"walk.{column}.{name}", "walk.csv", column, {"station": station}, f"{column}_error") for column, name, station in WALK),
+    *(Cell(f"slow.gamma.{name}", "slow-driving.csv", "gamma", where, "gamma_error") for name, where in (("fast", FAST), ("slow", SLOW))),
+    *(Cell(f"chain.{column}.{name}", "slow-driving-slider.csv", column, CHAIN | where, f"{column}_error") for column in ("exponent", "gamma")
+      for name, where in (("fast", {"velocity": "1e-2", "leap": "0"}), ("slow", {"velocity": "1e-7", "leap": "1e-3"}))),
+)
 PEERS = {"harmonic": "bond harmonic", "bpm": "bond bpm/spring", "esys": "ESyS-Particle"}
 
 
@@ -114,5 +130,47 @@ def speed_values():
         yield Value(f"speed.kilobytes.{name}", float(row["bytes"]) / 1000, source="speed/scale.csv")
 
 
+def calibrated():
+    """Points of the calibration, with a memory of 1."""
+    return [row for row in paper.completed(FOLDER / "calibration/points.csv.xz") if float(row["memory"]) == 1]
+
+
+def calibration_values():
+    """How many points there are, and how many meet the printed numbers of sizes and times."""
+    rows = calibrated()
+    met = {key: [paper.STATEMENTS_BY_NAME[key].deviation(row) <= 1 for row in rows] for key in ("exponent", "gamma", "B")}
+    for key, some in {"points": [True] * len(rows), **met, "together": [all(three) for three in zip(*met.values())]}.items():
+        yield Value(f"calibration.{key}", sum(some), float("nan"), "", len(rows), "calibration/points.csv.xz")
+
+
+def slow_values():
+    """Drops of slow plates over those of fast ones, in as much displacement, with leaps that hide least; large ones that both have."""
+    rows = read(FOLDER / "slow-driving.csv")
+    full, = [row for row in rows if row["run"] == FAST["run"]]
+    careful, = [row for row in rows if row["fast"] == "1e-4"]
+    for name, column in ("0.001", "events_3"), ("0.01", "events_2"), ("0.1", "events_1"):
+        ratio = number(careful, column) / number(full, column) * number(full, "displacement") / number(careful, "displacement")
+        yield Value(f"slow.ratio.{name}", ratio, float("nan"), "", 1, "slow-driving.csv")
+    matched = [(number(row, "same") / number(row, "of"), number(row, "chance") / number(row, "of")) for row in rows if row["same"]]
+    same, chance = zip(*matched)
+    for name, value in ("least", min(same)), ("most", max(same)), ("chance", sum(chance) / len(chance)):
+        yield Value(f"slow.matched.{name}", value, float("nan"), "", len(matched), "slow-driving.csv")
+
+
+def law_values():
+    """Main shocks of laws without a slow process, which have no event long after them, and events around those of the ageing law."""
+    laws = {}
+    for row in read(FOLDER / "laws.csv"):
+        laws.setdefault(row["run"].rsplit("_", 1)[0], []).append(row)
+    fast = [row for law in ("coulomb", "static", "slip-weakening", "velocity-weakening") for row in laws[law] if number(row, "after_far") == 0]
+    yield Value("laws.shocks.fast", sum(number(row, "main_shocks") for row in fast), float("nan"), "", len(fast), "laws.csv")
+    for name, column in ("after", "after_far"), ("before", "before_far"), ("omori", "omori_p"):
+        some = [number(row, column) for row in laws["ageing"]]
+        yield Value(f"laws.{name}.ageing", *mean_and_error(some), "", len(some), "laws.csv")
+
+
 def all_values(postproc):
-    return [*(cell.value() for cell in CELLS), *slider_values(postproc), *scaling_values(), *speed_values(), *validation_tables.all_values(postproc)]
+    return [
+        *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *scaling_values(),
+        *speed_values(), *validation_tables.all_values(postproc)
+    ]

@@ -14,9 +14,7 @@ loading=$(sed -n "s/^LOADING = \([0-9]*\).*/\1/p" "$root/python/lsm/__init__.py"
 new=$(mktemp -d)
 trap 'rm -rf "$new"' EXIT
 
-# in the order of the tables, so that the bootstrap has the same random numbers
-mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
-mapfile -t faults < <(printf '%s\n' "${every[@]}" | grep _1.catalogue)
+mapfile -t faults < <(ls campaign/fault_*_1.catalogue.csv.xz | sort -t_ -k2n)
 sliders=(catalogues/slider_ours_{256,614,972,1450,1928}_seed_1.catalogue.csv.xz)
 
 for part; do
@@ -27,40 +25,10 @@ for part; do
       cp "$new/report.html" .
       ;;
     catalogues)
-      ruptures=() labels=()
-      for file in "${faults[@]}"; do
-        length=${file#*fault_}
-        ruptures+=("${file/catalogue/ruptures}") labels+=(--label "fault ${length%%_*}")
-      done
-      PYTHONPATH=$root/python python3 -m lsm.ruptures "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
-      for name in lengths moments length pe; do cp "$new/rupture-$name.png" rupture_$name.png; done
-      "$postproc" intervals "${sliders[@]}" -o "$new/fig15_slider_intervals"
-      scaling() { PYTHONPATH=$root/python python3 -m lsm.scaling "$@"; }
-      scaling "${sliders[@]}" -o "$new/slider_fit.scaling"
-      scaling catalogues/slider_ruptures_*.xz --from 40000 --threshold 1 -o "$new/rupture_fit.scaling"
-      scaling "${every[@]}" --threshold 1e-3 --from "$loading" -o "$new/fault_fit.scaling"
-      scaling "${every[@]/catalogue/ruptures}" --threshold 1e-2 --from "$loading" -o "$new/fault_rupture_fit.scaling"
-      common=(--from "$loading" --threshold 1e-4)
-      both() { # sizes and inter-event times of catalogues, as in Figs. 12 and 14
-        "$postproc" histograms "${@:3}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/$1"
-        "$postproc" intervals "${@:3}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/$2"
-      }
-      both fig12_fault_sizes fig14_fault_intervals "${faults[@]}"
-      both damping_sizes damping_times damping/fault_{120,240,480,945,1440,1890}_4.catalogue.csv.xz
-      both slip_sizes slip_times slip/fault_{120,240,480,945,1890}_4.catalogue.csv.xz
-      for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
-        for kind in csv png; do cp "$new/$fit.scaling.$kind" .; done
-      done
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
-      for name in fig12_fault_sizes fig13_slider_sizes damping_sizes damping_times slip_sizes slip_times; do
-        for kind in csv gp png svg; do cp "$new/$name.$kind" .; done
-      done
-      for name in fig14_fault_intervals fig15_slider_intervals; do
-        for kind in csv gp png table1.csv; do cp "$new/$name.$kind" .; done
-      done
-      python3 ../inputs/studies/calibrate.py posterior calibration/points.csv.xz calibration
-      python3 slip_or_exchange.py decides damping_decides damping/points.csv
-      python3 slip_or_exchange.py rates slip_rates damping/fault_*.catalogue.csv.xz slip/fault_*.catalogue.csv.xz
+      for kind in csv gp png svg; do cp "$new/fig13_slider_sizes.$kind" .; done
+      python3 faults.py "$postproc"
+      python3 nature.py "$postproc"
       ;;
     run)
       # Runs the first command of the README; the pictures show its largest event.
@@ -87,19 +55,16 @@ for part; do
       cp "$new/sizes.png" tutorial_sizes.png
       cp "$new/compare.png" tutorial_compare.png
       cp "$new/page.png" explore.png
-      for name in event.png event.svg spacetime.png; do cp "$new/rupture-$name" "rupture_$name"; done
+      for kind in png svg; do cp "$new/rupture-event.$kind" "rupture_event.$kind"; done
       ;;
     studies)
-      gnuplot -e "table = 'slow-driving-slider.csv'" ../inputs/studies/slow-driving-slider.gp
       # Those of the fault, if the study has been run
       [ ! -e slow-driving.csv ] || gnuplot -e "table = 'slow-driving.csv'; around = 'slow-driving-around.csv'" ../inputs/studies/slow-driving.gp
       [ ! -e accuracy_catalogues.csv ] ||
         gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../inputs/studies/work-precision.gp
-      [ ! -e regime-map.csv ] || gnuplot -e "table = 'regime-map.csv'" ../inputs/studies/regime-map.gp
       gnuplot packing.gp
       PYTHONPATH=.:../inputs/studies python3 speed/speed_tables.py speed
       gnuplot ../inputs/studies/walk.gp
-      rm -f regime-map.svg
       ;;
     *)
       echo "pictures.sh: part '$part', expected catalogues, run, studies or report" >&2

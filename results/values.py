@@ -28,6 +28,9 @@ CHOSEN = {
     "benchmarks: spacings, stations, times, frequency": "50 100 150 200 19 1",
     "our tolerances": "0.07 1.22",
     "packings": "4 5 6 11 12 13",
+    "cut of short times in memories, stretches with bursts and their periods": "2.5 250 2",
+    "times after main shocks": "300 3e4",
+    "the block-slider: blocks, time step, and time left out": "512 0.05 12000",
 }
 CONSTANTS = set(f"{PRINTED} {' '.join(CHOSEN.values())}".split())
 MARK = re.compile(r"(\?|-?\d[\d.]*(?:e[-+]?\d+)?(?:\(\d[\d.]*\))?)<!--n\s+([^\s>]+)(?:\s+([^\s>]+?))?\s*-->")

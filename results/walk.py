@@ -39,23 +39,8 @@ FEWEST = 20  # smallest number of events in a decade
 # Lines of the table: what is added to the previous model, and its catalogues, NAME-BLOCKS and ruptures-NAME-BLOCKS
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
 LENGTHS = {"fault": 120, "fault-240": 240, "fault-480": 480}  # of the campaign
-FAULTS = (("fault", "fault"), ("fault, length 240", "fault-240"), ("fault, length 480", "fault-480"), ("fault, viscosity 1", "fault-viscous"),
-          ("fault, velocity weakening", "fault-weakening"))
-CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.001", "bulk-slower"),
-            ("elastic blocks, half the time step", "bulk-step"), ("roughness, half the time step", "rough-step"),
-            ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"), ("roughness, memory 0.2", "rough-memory"),
-            ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"), ("roughness, in plane", "rough-inplane"),
-            ("roughness, blocks 15 thick", "rough-thin"), ("roughness, stiffness of the lattice",
-                                                           "rough-lattice"), ("roughness, no inertia, radiation 1.28", "rough-quasi"))
-TABLES = {
-    "walk": {"gamma": "gamma_0", "distance to the fault": "to_fault", "events < 1": "small", "drops of 1 to 3 blocks": "short",
-             "ruptures of 1 to 3 blocks": "local"},
-    "walk-sizes": {f"exponent {10.0**n:g} to {10.0**(n + 1):g}": f"exponent_{n}" for n in DECADES[1:]} | {"events < 1": "small"},
-    "walk-times": {"gamma": "gamma_0", "burstiness": "burstiness", "distance to slider": "to_slider", "to fault": "to_fault",
-                   "to California": "to_california"},
-    "walk-lengths": {"seeds, events": "events", "drops of 1 to 3 blocks": "short", "ruptures of 1 to 3 blocks, >= 0.01": "local",
-                     ">= 0.1": "local_10"},
-}  # yapf: disable
+TABLE = {"gamma": "gamma_0", "distance to the fault": "to_fault", "events < 1": "small", "drops of 1 to 3 blocks": "short",
+         "ruptures of 1 to 3 blocks": "local"}  # yapf: disable
 
 
 def is_fault(name):
@@ -176,39 +161,15 @@ def measured(postproc, folder):
     return result
 
 
-def table(shown, name):
-    """Head and rows of one of TABLES, from walk.csv. \\param shown text of a number and its error"""
+def table(shown):
+    """Head and rows of the table of the page, from walk.csv. shown: text of a number and its error"""
     found = {row["station"]: row for row in read(RESULTS / "walk.csv")}
-    lines = [(f"{text}, {n} blocks", f"{station}-{n}") for text, station in WALK for n in (256, 512, 1024)]
-    lines += [*FAULTS, *((f"*{text}*", f"{station}-512") for text, station in CONTROLS)]
-    if name == "walk":
-        kept = [*(f"{station}-512" for _, station in WALK), "rough-chain-512", "fault"]
-        lines = sorted(((text.removesuffix(", 512 blocks"), station) for text, station in lines if station in kept),
-                       key=lambda one: kept.index(one[1]))
+    lines = [(text, f"{station}-512") for text, station in WALK] + [("*roughness, springs*", "rough-chain-512"), ("fault", "fault")]
     rows = []
     for text, station in lines:
-        if station in found:
-            one = found[station] | {key: value for key, value in found.get(f"ruptures-{station}", {}).items() if key.startswith("local")}
-            many = f"{one['seeds']}, {number(one, 'events') * int(one['seeds']):.0f}"
-            rows.append([text, *(many if key == "events" else shown(number(one, key), number(one, f"{key}_error")) for key in TABLES[name].values())])
-    return ["station", *TABLES[name]], rows
-
-
-def lattice(shown):
-    """Head and row of the stiffness of the lattice compared with the closed form for an elastic block (slider/slider_stiffness.h)."""
-    rows = [(float(q), float(k)) for q, k in (line.split(",") for line in (RESULTS / "lattice.stiffness.csv").read_text().splitlines()[1:])]
-    modulus, nu = math.sqrt(3) / 8, 0.25  # half of the shear modulus of links of stiffness 1
-    width, kappa, off = modulus / rows[0][1], 3 - 4 * nu, []
-    for q, stiffness in rows[1:]:
-        a = q * width
-        e = math.exp(-2 * a)
-        above = kappa * (1 + e * e) + 2 * e * (2 * a * a + 5 - 12 * nu + 8 * nu * nu)
-        closed = modulus * q / (1 - nu) * above / (kappa * (1 - e * e) + 4 * a * e)
-        off.append((2 * math.pi / q, stiffness / closed - 1))
-    chosen = [min(off, key=lambda one, wanted=wanted: abs(one[0] - wanted)) for wanted in (64, 32, 16, 8, 4, 3, 2)]
-    return ["wavelength in discs", *(f"{wavelength:.3g}" for wavelength, _ in chosen)], [
-        ["stiffness of the lattice over that of an elastic block, less 1", *(shown(100 * error) + " %" for _, error in chosen)]
-    ]  # yapf: disable
+        one = found[station] | {key: value for key, value in found.get(f"ruptures-{station}", {}).items() if key.startswith("local")}
+        rows.append([text, *(shown(number(one, key), number(one, f"{key}_error")) for key in TABLE.values())])
+    return ["station", *TABLE], rows
 
 
 def lines_of(found):

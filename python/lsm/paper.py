@@ -129,9 +129,7 @@ SLIDER_STATEMENTS = (
     Statement("C", "0.25", of("C"), 0.25, 0.25, 0.05),
 )
 
-
 # ---- points of a calibration, as inputs/studies/calibrate.py collects them
-
 
 STEPS = 110000  # of each point
 SLIDER_SETTINGS = {"blocks": "", "scheme": "", "dt": "", "picker": "", "picker-lambda": "", "picker-memory-time": "", "velocity": "0.01"}
@@ -140,12 +138,3 @@ SLIDER_KEYS = (*list(SLIDER_SETTINGS)[1:], "warmup", "smallest")
 
 def completed(path):
     return [row for row in read(path) if row["stopped"] == "no"]
-
-
-def nearest(rows):
-    """The points, each with the memory that fits best, nearest first."""
-    best = {}
-    for row in rows:
-        if row["point"] not in best or distance(row) < distance(best[row["point"]]):
-            best[row["point"]] = row
-    return sorted(best.values(), key=distance)

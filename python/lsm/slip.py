@@ -20,7 +20,7 @@ import numpy as np
 
 import lsm
 
-__all__ = ["AT_ONCE", "SLIP", "History", "excess_of", "friction_share", "gathered", "judged", "jumps", "recorded", "slip_share", "time_and_share"]
+__all__ = ["SLIP", "History", "excess_of", "gathered", "judged", "jumps", "recorded", "slip_share"]
 
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
@@ -121,11 +121,6 @@ def excess_of(events):
     return np.asarray((work - between * lasting) / events["size"]), np.asarray((total / time - between) * lasting)
 
 
-def friction_share(size, excess, loaded):
-    """What friction takes up in events together, over what their springs lose, with what these are loaded with meanwhile."""
-    return np.sum(excess * size) / np.sum(size + loaded)
-
-
 def gathered(history, events, first):
     """Whether the slip of each event lies together, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
@@ -141,7 +136,6 @@ def slip_share(excess, chance):
 
 
 AROUND = 30  # steps before and after a fall of PE
-AT_ONCE = 0.5  # an event lets go at once if it loses more than this share of its size in one step
 
 
 def jumps(pe, steps, events):
@@ -152,10 +146,3 @@ def jumps(pe, steps, events):
         around = np.median(np.abs(falls[max(0, at - AROUND):at + AROUND]))
         shares.append(falls[at] / size if falls[at] > 10 * around else 0.0)
     return np.array(shares)
-
-
-def time_and_share(found, excess, of):
-    """Mean time between some of the events of a catalogue, and share of these that are slip; NaN if there are none."""
-    if not np.any(of):
-        return np.nan, np.nan
-    return (found["t_end"].max() - found["t_start"].min()) / np.sum(of), slip_share(excess[of], found["chance"][of])

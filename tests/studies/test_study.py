@@ -583,25 +583,3 @@ def test_settings_of_studies_that_ship(lmp, binaries, work, name):
     }
     for words in sorted(settings):
         run(lmp, "-in variables.in", [text for word in words for text in ("-var", *word.split("=", 1))])
-
-
-def test_faults_whose_damping_changes(work):
-    """damping-states.sh with a program that notes its command: what each fault continues, and with which damping."""
-    Path("bin").mkdir()
-    Path("bin/lmp").write_text('#!/bin/sh\necho "$@" >>calls\n')
-    Path("bin/lmp").chmod(0o755)
-    run(Program("damping-states.sh", INPUTS / "studies/damping-states.sh"), "bin out")
-    calls = [dict(re.findall(r"-var (\S+) (\S+)", line)) for line in Path("out/calls").read_text().splitlines()]
-    named = {call["prefix"]: call for call in calls}
-    assert len(calls) == len(named) == 1 + 15 + 12
-    for name, call in named.items():
-        if "restart" in call:
-            before = named[call["restart"].removesuffix(".restart.end")]
-            assert list(named).index(before["prefix"]) < list(named).index(name)
-            changed = float(call["viscosity"]) / float(before.get("viscosity", "inf"))
-            assert changed == pytest.approx(100 if name[:3] == "on_" else 0.01 if name[:4] == "off_" else 0), name
-            assert before["impedance"] == "0"
-    assert {(call["viscosity"], call["impedance"]) for name, call in named.items() if name.startswith("glued")} == {
-        (viscosity, impedance) for viscosity in ("5e-4", "2e-3", "5e-3", "2e-2", "5e-2") for impedance in ("0", "0.1", "0.6")
-    }  # yapf: disable
-    assert run(Program("damping-states.sh", INPUTS / "studies/damping-states.sh"), "bin", status=2).err.startswith("usage: damping-states.sh BIN OUT")
