@@ -5,7 +5,7 @@
 # 120 on two ranks, prints its largest events, draws the potential energy with the picked events,
 # and makes a page on which one explores the run.
 #
-# usage: inputs/first-catalogue.sh [STEPS]      (default 380000)
+# usage: inputs/first-catalogue.sh [STEPS]      (default 300000)
 # Build folder: build (LSM_BUILD_DIR replaces it), in which 'cmake --build build' makes the rest.
 # Results: first-catalogue/ in the build folder (LSM_OUTPUT replaces it). LSM_BIN is the folder of
 # programs that are built already. Interrupted, it goes on with what is built, and begins the run
@@ -16,7 +16,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 for folder in LSM_BIN LSM_BUILD_DIR LSM_OUTPUT; do # seen from here, not from the folder of the run
   [[ -z ${!folder:-} || ${!folder} = /* ]] || printf -v $folder %s "$PWD/${!folder}"
 done
-steps=${1:-380000}
+steps=${1:-300000}
 [[ $steps =~ ^[1-9][0-9]*$ ]] || {
   echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2
   exit 2

@@ -29,7 +29,8 @@ options=("$@") where=(--cores all)
 for ((i = 0; i < $#; i++)); do
   if [ "${options[i]}" = --profile ]; then
     where=()
-    [ ! -d "${options[i + 1]:-}" ] || options[i + 1]=$(realpath "${options[i + 1]}") # Snakemake changes its folder
+    [ ! -d "${options[i + 1]:-}" ] || options[i + 1]=$(realpath "${options[i + 1]}")                 # Snakemake changes its folder
+    [ ! -f "${options[i + 1]:-}/config.yaml" ] || export LSM_PROFILE="${options[i + 1]}/config.yaml" # what -n says
   fi
 done
 [[ -z $hours || ${#where[@]} = 0 ]] || LSM_UNTIL=$(awk -v now="$(date +%s)" -v h="$hours" 'BEGIN { printf "%.0f", now + 3600 * h }')

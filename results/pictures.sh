@@ -39,7 +39,7 @@ for part; do
         END { print a, b, t, int(b - 1200 / dt[2]) }' first.catalogue.csv)"
       "$postproc" series first.pe.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) --title "Fault of length 120" -o series
       "$postproc" histograms first.catalogue.csv --threshold 1e-4 --guide=-1.07:1e-4:0.1 -o sizes
-      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 380000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
+      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 300000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
       "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --threshold 1e-4 --label "mus 0.6" --label "mus 0.8" -o compare
       chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2760 --virtual-time-budget=20000 \
         --screenshot=page.png "file://$new/first.html" >out 2>&1

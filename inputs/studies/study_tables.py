@@ -11,11 +11,13 @@ import io
 import itertools
 import json
 import math
+import os
 import re
 import shlex
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import yaml
@@ -23,8 +25,10 @@ import yaml
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
 from lsm import LOADING  # noqa: E402
-from run import PROGRAMS, begun_otherwise, replace  # noqa: E402
+from run import MPI, PROGRAMS, begun_otherwise, replace  # noqa: E402
+from variables import declared  # noqa: E402
 
+MOST_ASKED = 40  # settings that are checked one by one
 RESERVED = ("run", "program", "ranks", "settings")
 # What an expression raises if numbers of a run are missing
 MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
@@ -39,11 +43,19 @@ class TableError(Exception):
     pass
 
 
+class Misspelt(AttributeError):
+    """A field that the numbers of a command do not have, and why."""
+
+
 class Found(dict):
     """Numbers of JSON files, accessible as a.b[0].c."""
 
     def __getattr__(self, name):
-        return self[name]
+        if name in self or name.startswith("__"):
+            return self[name]
+        if self.get("why"):  # what a command could not determine has its reason in place of numbers
+            raise Misspelt(self["why"])
+        raise Misspelt(f"nothing is called '{name}'{meant(name, self)}, expected one of {', '.join(self)}")
 
 
 def read_json(path):
@@ -65,6 +77,13 @@ def with_defaults(config):
             raise TableError(f"'{name}={text}', expected a number above 0")
     pattern(config.get("only"), "only")
     return {**known, **config}
+
+
+def is_number(text):
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def positive(text):
@@ -242,6 +261,7 @@ class Study:
     def __init__(self, config):
         table = Path(config["table"])
         self.binaries = config["bin"]
+        self.misspelt = {}  # why an expression has no value
         self.runs = read_runs(table, config)
         self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
         self.common = dict(math.__dict__, postproc=shlex.quote(f"{self.binaries}/postproc"), inputs=shlex.quote(str(INPUTS)),
@@ -276,6 +296,10 @@ class Study:
                 pattern((one or {}).get("runs"), f"{path}: {part}: {name}: runs")
                 if ("command" if part == "figures" else "title") not in (one or {}):
                     raise TableError(f"{path}: {part}: {name}: expected a {'command' if part == 'figures' else 'title'}")
+        both = [name + end for part in ("means", "differences") for name in recipe.get(part) or {} for end in ("", "_error")]
+        twice = [name for name in both if both.count(name) > 1]
+        if twice:
+            raise TableError(f"{path}: means and differences: '{twice[0]}' twice in differences.csv, expected it once")
         self.check_expressions(path, recipe)
         return recipe
 
@@ -301,8 +325,8 @@ class Study:
             for name, one in (recipe.get(part) or {}).items():
                 where = f"{part}: {name}"
                 if part in ("figures", "pages"):
-                    if "label" in one:
-                        check(one["label"], known, where)
+                    for key in {"label", "from"} & one.keys():
+                        check(one[key], known, where)
                     texts = [one.get("command", "")]
                 else:
                     texts = [one] if part in ("numbers", "comparisons") else []
@@ -339,6 +363,37 @@ class Study:
             for name in self.numbers(run):
                 self.command(run, name)
 
+    def check_values(self):
+        """\\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again.
+        Of very many settings those are asked that have the ends of the values of a variable, or a text that others do not have."""
+        kinds, asked = {}, []
+        for run in self.runs.values():
+            if run.program == "fault" and not Path(run.name, "settings.txt").exists():
+                kinds.setdefault(tuple(word for word in run.words if not word.startswith("seed=")), run)
+        if len(kinds) > MOST_ASKED:
+            values = {}
+            for run in kinds.values():
+                for name, text in run.settings.items():
+                    values.setdefault(name, {}).setdefault(text, run)
+            for found in values.values():
+                numbers = sorted((text for text in found if is_number(text)), key=float)
+                asked += [found[text] for text in found if text in (*numbers[:1], *numbers[-1:]) or not is_number(text)]
+            asked = list(dict.fromkeys(asked))
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for run, why in zip(asked or kinds.values(), pool.map(self.refusal, asked or kinds.values())):
+                if why:
+                    raise TableError(f"{run.place}: run '{run.name}': {why}")
+
+    def refusal(self, run):
+        """Why LAMMPS refuses the values of a fault; empty if it does not."""
+        script = "lsm_variables fault.variables\natom_style bond\npair_style lsm/friction ${law}\n"
+        names = {one.name for one in declared()}  # others are of scenes for `extra`
+        words = [text for name, value in run.settings.items() if name in names for text in ("-var", name, value)]
+        done = subprocess.run([f"{self.binaries}/lmp", "-log", "none", *words], cwd=INPUTS, input=script, capture_output=True, text=True,
+                              env={**os.environ, **MPI})
+        said = re.search(r"^ERROR: (.*?)( \(\S+:\d+\))?$", done.stdout, re.M)
+        return said[1] if done.returncode and said else ""
+
     def part(self, name):
         return self.recipe.get(name) or {}
 
@@ -356,7 +411,7 @@ class Study:
         names = dict(self.common, **values)
         for key, expression in self.part("values").items():
             try:
-                names[key] = eval(expression, dict(names))
+                names[key] = eval(str(expression), dict(names))
             except MISSING:
                 continue
         return names
@@ -425,7 +480,10 @@ class Study:
         found, values = self.found(run), []
         for expression in expressions:
             try:
-                value = eval(expression, dict(found))
+                value = eval(str(expression), dict(found))
+            except Misspelt as error:
+                value = None
+                self.misspelt[expression] = f" ({error})"
             except MISSING:
                 value = None
             values.append("" if value is None else f"{value:.6g}" if isinstance(value, float) else value)
@@ -462,7 +520,9 @@ class Study:
             rows.append(self.row(run, part.values()))
         empty = [column for column, values in zip(part, zip(*rows)) if not any(value != "" for value in values)]
         if empty:
-            print(f"{name}.csv: empty for all runs: {', '.join(empty)}; the reasons are in RUN/numbers", file=sys.stderr)
+            said = [column + self.misspelt.get(part[column], "") for column in empty]
+            where = "" if all(part[column] in self.misspelt for column in empty) else "; the reasons are in RUN/numbers"
+            print(f"{name}.csv: empty for all runs: {', '.join(said)}{where}", file=sys.stderr)
         return [["run", *self.columns(), *part]] + [self.start(run) + row for run, row in zip(self.runs.values(), rows)]
 
     def stack(self, expression):
@@ -480,7 +540,7 @@ class Study:
         return lines
 
     def differences(self):
-        """One line for all seeds of a model: part `means`, and means with errors of the differences from the first model, seed by seed."""
+        """One line for all seeds of a model: means with errors of part `means`, and of the differences from the first model, seed by seed."""
         means, differences, groups, values = self.part("means"), self.part("differences"), {}, {}
         for run in self.done():
             key = tuple(run.row.get(column, "") for column in self.columns() if column != "seed")
@@ -492,11 +552,12 @@ class Study:
             run.row.get("seed"): values[run.name]
             for run in groups.get(tuple(first.row.get(column, "") for column in self.columns() if column != "seed"), [])
         }
-        lines = [[c for c in self.columns() if c != "seed"] + ["seeds", *means] + [f"{name}{end}" for name in differences for end in ("", "_error")]]
+        lines = [[c
+                  for c in self.columns() if c != "seed"] + ["seeds"] + [f"{name}{end}" for name in (*means, *differences) for end in ("", "_error")]]
         for key, runs in groups.items():
             line = [*key, len(runs)]
             for k in range(len(means)):
-                line += mean_and_error([values[run.name][k] for run in runs])[:1]
+                line += mean_and_error([values[run.name][k] for run in runs])
             for k in range(len(means), len(means) + len(differences)):
                 line += mean_and_error([values[run.name][k] - first[run.row.get("seed")][k] for run in runs if run.row.get("seed") in first])
             lines.append(line)

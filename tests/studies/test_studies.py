@@ -339,7 +339,7 @@ def test_settings_of_several_words(studies):
 
 
 def test_plans(studies):
-    """Every study that ships can be planned."""
+    """Every study that ships can be planned, and its faults have values that they may have."""
     shipped = sorted(path.stem for path in (INPUTS / "studies").glob("*.csv"))
     assert len(shipped) > 10
     for name in shipped:

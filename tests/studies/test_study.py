@@ -22,7 +22,7 @@ from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # n
 sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 from lsm import LOADING  # noqa: E402
 from progress import RunProgress  # noqa: E402
-from study_tables import Study, TableError, with_defaults  # noqa: E402
+from study_tables import Found, Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,preset=absorbing width=20 settle=100 velocity=0.02 stress=0.003\n"
@@ -145,10 +145,15 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
     pages = RECIPE + "pages:\n  report: {title: First}\nfigures:\n  sizes: {command: histograms}\n"
     write(CHAIN, pages)
     run(study, "my.csv")
-    drawn = when("out/figures/sizes.png")
-    write(CHAIN, pages.replace("First", "Second title").replace("histograms", "histograms --guide=-1:1:10"))
+    drawn, events = when("out/figures/sizes.png"), int(counted("c_1/catalogue.csv"))
+    assert f" {events} " in Path("out/report.html").read_text()
+    write(CHAIN,
+          pages.replace("First", "Second title, from: 2500*shorten, label: run + ' of one model'").replace("histograms", "histograms --guide=-1:1:10"))
     run(study, "my.csv")
-    assert "Second title" in Path("out/report.html").read_text() and when("out/figures/sizes.png") != drawn
+    page = Path("out/report.html").read_text()
+    later = sum(line[0] not in "#e" and float(line.split(",")[1]) >= 2500 for line in open("out/c_1/catalogue.csv"))
+    assert "Second title" in page and re.search(rf"c_1 of one model +{later} ", page) and later < events
+    assert when("out/figures/sizes.png") != drawn
 
 
 def test_scripts_of_results_give_numbers(study):
@@ -267,7 +272,10 @@ def test_what_a_command_refuses_is_an_error_and_no_empty_cell(study):
     assert run(study, "my.csv", status=None).status == 1
     assert not Path("out/c_1/numbers/sizes.json").exists() and not Path("out/table.csv").exists()
     write(CHAIN, RECIPE + "  sizes: sizes.catalogues[0].evnts\n")
-    run(study, "my.csv").warned(r"^table.csv: empty for all runs: sizes; the reasons are in RUN/numbers")
+    run(study,
+        "my.csv").warned(r"^table.csv: empty for all runs: sizes \(nothing is called 'evnts' \(did you mean events\?\), expected one of label, .*\)$")
+    write(CHAIN, RECIPE + "  sizes: sizes.catalogues[1].events\n")
+    run(study, "my.csv").warned("^table.csv: empty for all runs: sizes; the reasons are in RUN/numbers$")
 
 
 def test_a_second_start_says_that_one_works_already(study):
@@ -513,6 +521,56 @@ def test_a_run_that_failed_is_no_result(study, work):
     assert table()["c_2"]["events"] == counted("c_2/catalogue.csv")
 
 
+@pytest.mark.parametrize("settings, said", [
+    ("stress=-0.02", "Variable stress is '-0.02', but must be a number of at least 0"),
+    ("faces=smooth", "Variable faces is 'smooth', but must be random or none"),
+    ("'law=coulom 0.6 0.6'", "with one of the laws coulomb, .*, got 'coulom'"),
+    ("leap=yes retardation=0.1", "leap.*retardation"),
+])
+def test_values_that_no_fault_may_have_are_refused_before_anything_runs(study, settings, said):
+    write(HEAD + FAULT + f"g,fault,24,,1,2000,{settings}\n")
+    Path("out").mkdir()
+    refused(study, "my.csv -n", f"^study.sh: .*my.csv:3: run 'g': .*{said}", but=NOTES)
+
+
+def test_of_very_many_settings_the_ends_are_asked(plan, monkeypatch):
+    monkeypatch.setattr("study_tables.MOST_ASKED", 3)
+    found, asked = plan("run,program,stress,steps,faces\nf_{stress}_{steps},fault,0.01 0.02 0.03 0.04,10,random\ng,fault,0.02,10,none\n"), []
+    monkeypatch.setattr(found, "refusal", lambda run: asked.append(run.name) or "")
+    found.check_values()
+    assert sorted(asked) == ["f_0.01_10", "f_0.04_10", "g"]
+
+
+def test_what_would_be_submitted_is_said(study):
+    write(HEAD.replace("settings", "settings,ranks") + FAULT.replace("\n", ",4\n"))
+    said = run(study, "my.csv hours=2 -n --profile", INPUTS / "slurm").err
+    assert re.search("^  f_1: .*sbatch .* --ntasks=4 --time=120 .*--job-name=fault.f_1 ", said, re.M)
+
+
+def test_means_have_errors_and_names_of_their_own(study, plan):
+    parts = "means:\n  n: count.catalogues[0].events\ndifferences:\n  m: log(count.catalogues[0].events)\n"
+    write(CHAIN.replace("0,1,1e5", "0,1-2,1e5"), RECIPE + parts)
+    run(study, "my.csv")
+    a, b = (int(row["events"]) for row in table().values())
+    with open("out/differences.csv") as lines:
+        row, = csv.DictReader(lines)
+    assert float(row["n"]) == (a + b) / 2 and float(row["n_error"]) == pytest.approx(abs(a - b) / 2, rel=1e-5) and row["m"] == row["m_error"] == "0"
+    with pytest.raises(TableError, match="my.yaml: means and differences: 'n_error' twice in differences.csv, expected it once"):
+        plan("run,program\nc,slider\n", RECIPE + parts.replace("m:", "n_error:"))
+
+
+def test_a_number_that_is_missing_says_why():
+    with pytest.raises(AttributeError, match="^nothing is called 'evnts' .did you mean events.., expected one of events, label$"):
+        Found(events=3, label="a").evnts
+    with pytest.raises(AttributeError, match="^5 events, at least 10 needed$"):
+        Found(label="a", why="5 events, at least 10 needed").exponent
+
+
+def test_values_may_be_numbers(plan):
+    found = plan("run,program\nc,slider\n", "values:\n  begin: 120\nnumbers:\n  count: count {catalogue} --from {begin}\n")
+    assert found.command(found.runs["c"], "count").endswith("count c/catalogue.csv --from 120 --overwrite")
+
+
 def test_settings_are_no_code(plan):
     found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
     assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} count c/catalogue.csv --label 'a; touch b' --overwrite"
@@ -568,18 +626,3 @@ def test_recipes_that_say_what_is_wrong(plan, recipe, said):
 def test_studies_that_ship(binaries, work, name):
     """Their settings are ones that the programs have, and their recipes are valid."""
     Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)})).check()
-
-
-@pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
-def test_settings_of_studies_that_ship(lmp, binaries, work, name):
-    """All values of variables are valid, and none is without effect beside others; nothing is run."""
-    Path("variables.in").write_text("lsm_variables fault.variables\n")
-    for file in (INPUTS / "fault.variables", *INPUTS.glob("fault_*.in")):  # `extra` names scenes
-        Path(file.name).symlink_to(file)
-    study = Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)}))
-    settings = {
-        tuple(word for word in one.words if not word.startswith(("seed=", "steps=")))
-        for one in study.runs.values() if one.program == "fault"
-    }
-    for words in sorted(settings):
-        run(lmp, "-in variables.in", [text for word in words for text in ("-var", *word.split("=", 1))])
