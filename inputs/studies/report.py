@@ -3,7 +3,7 @@
 """One self-contained HTML page on a set of catalogues: counts, figures (SVG), fits, finite-size scaling, Table 1, parameters, and what of
 it is not in the paper. Numbers, texts and figures are those of the commands of postproc, of lsm.scaling and of lsm.regime.
 
-report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--series FILE]... [--from TIME] [--to TIME]
+report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--series FILE]... [--from TIME]... [--to TIME]
           [--threshold SIZE] [--lenient] [--replicas N] [--seed N] CATALOGUE...
 """
 import argparse
@@ -147,15 +147,24 @@ def parameter_table(headers):
 
 def page_of(settings, folder):
     """The whole page, which needs no other file and no network. \\raises OSError, ValueError"""
-    options = [f"--{name}={value}" for name, value in (("from", settings.begin), ("to", settings.end)) if value is not None]
+    begin, paths = settings.begin or [], list(settings.catalogues)
+    if len(begin) > 1 and len(begin) != len(paths):
+        raise ValueError(f"--from given {len(begin)} times, expected once, or once for each of {len(paths)} catalogues")
+    own = len(begin) > 1
+    options = [f"--from={one}" for one in begin if not own] + [f"--to={settings.end}"] * (settings.end is not None)
     postproc = Postproc(settings.postproc, folder, options + ["--lenient"] * settings.lenient)
     labels = settings.label or []
     if labels and len(labels) != len(settings.catalogues):
         raise ValueError(f"--label given {len(labels)} times, expected once for each of {len(settings.catalogues)} catalogues")
-    counts = postproc.text("count", *settings.catalogues, *(f"--label={label}" for label in labels), "--json", folder / "count.json")
+    for n, path in enumerate(paths if own else []):
+        if begin[n] != "0":
+            paths[n] = Path(folder, str(n), re.sub("[.](gz|xz)$", "", Path(path).name))
+            paths[n].parent.mkdir()
+            postproc("select", path, f"--from={begin[n]}", "-o", paths[n])
+    counts = postproc.text("count", *paths, *(f"--label={label}" for label in labels), "--json", folder / "count.json")
     names = [row["label"] for row in json.loads((folder / "count.json").read_text())["catalogues"]]
     groups = {}
-    for n, path in enumerate(settings.catalogues):
+    for n, path in enumerate(paths):
         header = parameters_of(path)
         model = header.get("model", "earthquakes")
         # Sliders of other leaf springs are other models: their sizes differ more than those of other lengths.
@@ -210,7 +219,8 @@ def parser():
     options.add_argument("--title", default="Event statistics of the fault and the block-slider")
     options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
     options.add_argument("--series", action="append", metavar="FILE", help="PE series of runs, whose regime, stick-slip or creep, the page states †")
-    options.add_argument("--from", dest="begin", metavar="TIME")
+    options.add_argument("--from", dest="begin", action="append", metavar="TIME",
+                         help="leave out what starts before; once, or once per catalogue of a model (0: nothing)")
     options.add_argument("--to", dest="end", metavar="TIME")
     options.add_argument("--threshold", metavar="SIZE", help="smallest size of the events; without it that of postproc")
     options.add_argument("--lenient", action="store_true", help="skip lines that cannot be read")

@@ -26,7 +26,7 @@ INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
 from lsm import LOADING  # noqa: E402
 from run import MPI, PROGRAMS, begun_otherwise, replace  # noqa: E402
-from variables import declared  # noqa: E402
+from variables import declared, defaults  # noqa: E402
 
 MOST_ASKED = 40  # settings that are checked one by one
 RESERVED = ("run", "program", "ranks", "settings")
@@ -108,6 +108,8 @@ def text_of(path, what):
     except OSError as error:
         raise TableError(f"cannot read {path}, expected {what} ({error.strerror})")
     try:
+        if 0 in raw:  # UTF-16 without a mark
+            raise UnicodeDecodeError("utf-8", raw, raw.index(0), 1 + raw.index(0), "a byte of 0")
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise TableError(f"{path}:{raw[:error.start].count(10) + 1}: not UTF-8, expected {what} in UTF-8")
@@ -139,9 +141,24 @@ class Run:
         done = Path(self.name, "done.json")
         return read_json(done).get("failed", "") if done.exists() else ""
 
+    def loaded(self):
+        """When the first loading of a fault ends, in which PE rises: `loading`, for its velocity. 0 for other programs, and if the run ends before."""
+        if self.program not in ("fault", "esys"):
+            return 0
+        said = defaults(self.settings.get("preset", "leaky")) | self.settings
+        try:
+            dt, velocity = float(said["dt"]), float(said["velocity"])
+            times = [
+                float(usual[1]) if (usual := re.match(r"\$\(round\((\d+)/v_dt", said[key])) else float(said[key]) * dt for key in ("settle", "steps")
+            ]
+            begin = 1200 + (LOADING - 1200) * float(defaults()["velocity"]) / velocity
+        except (ValueError, ZeroDivisionError):  # refused by check_values(), or plates at rest
+            return 0
+        return begin if 0 < begin < sum(times) else 0
+
     def values(self):
         """Settings, as numbers where possible."""
-        values = dict(run=self.name, folder=self.name, catalogue=self.catalogue)
+        values = dict(run=self.name, folder=self.name, catalogue=self.catalogue, program=self.program, loaded=self.loaded())
         for key, value in self.settings.items():
             try:
                 values[key.replace("-", "_")] = float(value)
@@ -214,12 +231,15 @@ def runs_of_row(row, config):
 def read_runs(path, config):
     """All runs of a table by name. \\raises TableError naming file and line"""
     config = dict(config, table=path)
-    lines = [(n, line) for n, line in enumerate(text_of(path, "a table of runs").splitlines(), 1) if line.strip() and line[0] != "#"]
+    lines = [(n, line) for n, line in enumerate(text_of(path, "a table of runs").splitlines(), 1) if line.strip(", \t") and line[0] != "#"]
     if not lines:
         raise TableError(f"{path}: empty, expected a table of runs")
     header, runs = [name.strip() for name in next(csv.reader([lines[0][1]]))], {}
+    other = [name for mark, name in ((";", "semicolons"), ("\t", "tabs")) if mark in lines[0][1]]
+    separated = f", and commas in place of {other[0]}" if other else ""
     for wrong, said in ((len(set(header)) < len(header), f"column '{max(header, key=header.count)}' twice, expected once"),
-                        ("" in header, "a column without a name, expected one"), ("program" not in header, "no column 'program', expected one")):
+                        ("" in header, "a column without a name, expected one"), ("program"
+                                                                                  not in header, "no column 'program', expected one" + separated)):
         if wrong:
             raise TableError(f"{path}:{lines[0][0]}: {said}")
     for number, line in lines[1:]:
@@ -307,7 +327,8 @@ class Study:
         """\\raises TableError if an expression of a recipe is not valid, or uses a name that does not exist"""
         settings = {key for run in self.runs.values() for key in (*self.known[run.program], *run.row, *run.settings)}
         known = {
-            *self.common, *dir(builtins), *(key.replace("-", "_") for key in settings), *(recipe.get("values") or {}), "run", "folder", "catalogue"
+            *self.common, *dir(builtins), *(key.replace("-", "_") for key in settings), *(recipe.get("values") or {}),
+            *next(iter(self.runs.values())).values()
         }
         of_runs = {*known, *(recipe.get("numbers") or {}), *(recipe.get("comparisons") or {}), "done", "summary"}
 
@@ -444,6 +465,10 @@ class Study:
     def label(self, recipe, run):
         """Name of the curve of a run. Some commands take runs with the same label as samples of one model."""
         return str(eval(recipe["label"], self.names(run.values()))) if "label" in recipe else run.name.replace("_", " ")
+
+    def begin(self, recipe, run):
+        """The time from which on a page has the events of a run."""
+        return f"{eval(str(recipe.get('from', 0)), self.names(run.values())):.15g}"
 
     def command(self, run, name):
         other = self.reference(run)

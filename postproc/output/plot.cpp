@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // The line types have Okabe and Ito's colours, which are safe for any kind of colour vision, each
-// with its own point type and dashes, so that curves differ in black and white as well.
+// with its own point type and dashes, so that curves differ in black and white as well. From the
+// seventh on, where colours are too many to be told apart or occur again, points are letters.
 constexpr std::string_view prelude = R"(
 set datafile separator comma
 set encoding utf8
@@ -35,17 +36,13 @@ set linetype 3 lc rgb "#009E73" pt 9  dt (4,4) lw 1.8 ps 0.95*point
 set linetype 4 lc rgb "#CC79A7" pt 13 dt (14,4,3,4) lw 1.6 ps 1.0*point
 set linetype 5 lc rgb "#E69F00" pt 4  dt (20,4,3,4,3,4) lw 1.6 ps 0.8*point
 set linetype 6 lc rgb "#56B4E9" pt 6  dt (8,3) lw 1.6 ps 0.85*point
-set linetype 7 lc rgb "#7A6A00" pt 8  dt (2,3) lw 1.8 ps 0.95*point
-set linetype 8 lc rgb "#000000" pt 12 dt 1 lw 1.2 ps 0.95*point
-set linetype 9 lc rgb "#0072B2" pt 6 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 10 lc rgb "#D55E00" pt 4 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 11 lc rgb "#009E73" pt 8 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 12 lc rgb "#CC79A7" pt 12 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 13 lc rgb "#E69F00" pt 5 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 14 lc rgb "#56B4E9" pt 7 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 15 lc rgb "#7A6A00" pt 9 dt (3,5) lw 1.4 ps 0.9*point
-set linetype 16 lc rgb "#000000" pt 13 dt (3,5) lw 1.4 ps 0.9*point
-set linetype cycle 16
+colours = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #7A6A00 #000000"
+letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+do for [n = 7:58] {
+set linetype n lc rgb word(colours, 1 + (n - 1) % 8) pt letters[n-6:n-6] dt (3,5) lw 1.4 ps 1.1*point
+}
+set linetype 8 dt 1
+set linetype cycle 58
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"

@@ -67,8 +67,8 @@ struct Figure {
   /// gnuplot commands that end with a plot (or multiplot); they run once per format. Before them
   /// are set: the string variables `base` ("./" and the name without folder, so that gnuplot does
   /// not take a name for a pipe) and `table` (base.".csv"); comma as the separator of data files;
-  /// line types `lt 1` to `lt 16` with Okabe and Ito's colours, twice, and different point types
-  /// and dashes (lt 8 is black); and the key below the picture.
+  /// line types `lt 1` to `lt 58` with Okabe and Ito's colours and different point types, from the
+  /// seventh on letters (lt 8 is black); and the key below the picture.
   std::string script;
   PictureSize size;
 };

@@ -61,6 +61,9 @@ def _bytes(path):
                 return module.decompress(raw)
             except (EOFError, OSError, lzma.LZMAError, zlib.error) as error:
                 raise ValueError(f"{path}: cannot be decompressed ({error}), expected a complete file") from None
+    for magic, name in ((b"BZh", "bzip2"), (b"\x28\xb5\x2f\xfd", "zstd"), (b"PK\3\4", "zip")):
+        if raw.startswith(magic):
+            raise ValueError(f"{path}: compressed by {name}, expected gzip, xz or a file that is not compressed")
     return raw
 
 
@@ -127,17 +130,24 @@ def _binary(path, magics, what):
     return header_of(raw[24:24 + length].decode("utf-8", "replace").splitlines()), memoryview(raw)[24 + length:], magics.index(raw[:16]) + 1
 
 
-def _records(raw, kinds):
+def _records(path, raw, kinds):
+    """The complete records; their steps, in the first column, increase. After a power failure zeros may follow."""
     kind = np.dtype(kinds)
-    return np.frombuffer(raw, kind, len(raw) // kind.itemsize)
+    records = np.frombuffer(raw, kind, len(raw) // kind.itemsize)
+    steps = records[kind.names[0]]
+    wrong = np.flatnonzero(steps[1:] <= steps[:-1])
+    if len(wrong):
+        n = wrong[0] + 1
+        raise ValueError(f"{path}: record {n + 1}: step {steps[n]} after step {steps[n - 1]}, expected increasing steps")
+    return records
 
 
 def read_series(path):
     """Reads a PE series: columns step, time, pe."""
     header, raw, _ = _binary(path, [b"lsm-pe-series-1\n"], "PE series")
     if header.get("times") == "own":
-        return Table(_records(raw, [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]), header)
-    stored = _records(raw, [("step", "<i8"), ("pe", "<f8")])
+        return Table(_records(path, raw, [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]), header)
+    stored = _records(path, raw, [("step", "<i8"), ("pe", "<f8")])
     series = np.empty(len(stored), [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")])
     series["step"], series["pe"] = stored["step"], stored["pe"]
     step0 = _number(path, header, "step0", int)
@@ -156,7 +166,7 @@ def read_slip(path):
             raise ValueError(f"{path}: parameter '{name}' is {bins}, expected at least 1")
     components = (2,) if version == 2 else ()
     places = [("slip", "<f4", shape + components), ("work", "<f4", shape), ("stress", "<f4", shape + components)]
-    return Table(_records(raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)
+    return Table(_records(path, raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)
 
 
 def spectrum(series, segment=None):

@@ -114,6 +114,9 @@ def test_series_with_times_of_its_own_and_an_incomplete_record(work):
                           (b"lsm-pe-series-1\n" + (1000).to_bytes(8, "little") + b"# dt = 1\n", "the header is not complete"),
                           (binary(b"lsm-pe-series-1\n", b"# dt = x\n# step0 = 0\n# time0 = 0\n", b""), "parameter 'dt' is 'x', expected a number"),
                           (binary(b"lsm-pe-series-1\n", b"# dt = 1\n", b""), "parameter 'step0' is missing"),
+                          (binary(b"lsm-pe-series-1\n", b"# times = own\n",
+                                  bytes.fromhex("01") + bytes(23) + bytes(24)), "record 2: step 0 after step 1, expected increasing steps"),
+                          (b"\x28\xb5\x2f\xfd...", "compressed by zstd, expected gzip, xz or a file that is not compressed"),
                           (b"\xfd7zXZ\0broken", "cannot be decompressed")])
 def test_series_that_is_none(work, raw, said):
     (work / "a.bin").write_bytes(raw)

@@ -98,6 +98,34 @@ def test_options_reach_the_commands(do, report):
     said("t.html", "smallest size, fault: 0.1, as given")
     refused(report, "a.csv --threshold 0.1 --label x --label y", "--label given 2 times, expected once for each of 1 catalogues")
     refused(report, "a.csv --from x -o new.html", "--from 'x': expected a model time")
+    refused(report, "a.csv a.csv a.csv --from 1 --from 2 -o new.html", "--from given 2 times, expected once, or once for each of 3 catalogues")
+
+
+def test_catalogues_begin_at_times_of_their_own(do, report):
+    """Each is read from its own time on, whatever its model and kind."""
+    fault("a.csv", power_law(1, 1e-3, 1, 500))
+    slider("s.csv", power_law(1.2, 1e-2, 100, 500))
+    starts = [float(line.split(",")[1]) for line in Path("a.csv").read_text().splitlines() if line[0].isdigit()]
+    begin = starts[200]
+    do(f"a.csv s.csv --label a --label s --from {begin} --from 0 -o b.html", QUICK)
+    counts = re.search("<pre>(.*?)</pre>", said("b.html"), re.S)[1]
+    assert [re.search(rf"^ *{name} +.*?\b(\d+)\b", counts, re.M)[1] for name in "as"] == ["300", "500"], counts
+    refused(report, f"a.csv s.csv --from {begin} --from x -o c.html", "--from 'x'")
+
+
+def test_many_curves(do):
+    """From the seventh on they have letters for points, as colours occur again."""
+    count = 20
+    for n in range(count):
+        fault(f"{n}.csv", power_law(1, 1e-3, 1 + n, 300, seed=n))
+    do([f"{n}.csv" for n in range(count)], QUICK, "-o m.html")
+    page = said("m.html")
+    for name in "sizes", "times":
+        picture = re.search(
+            f"<svg role[^>]*>(?:(?!</svg>).)*{dict(sizes='Densities of event sizes', times='Densities of inter-event times')[name]}.*?</svg>", page,
+            re.S)[0]
+        letters = {letter for letter in "ABCDEFGHIJKLMNOP" if re.search(rf">{letter}</tspan>|>{letter}</text>", picture)}
+        assert letters == set("ABCDEFGHIJKLMN"), (name, letters)
 
 
 def test_few_events(do):

@@ -147,8 +147,9 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
     run(study, "my.csv")
     drawn, events = when("out/figures/sizes.png"), int(counted("c_1/catalogue.csv"))
     assert f" {events} " in Path("out/report.html").read_text()
-    write(CHAIN,
-          pages.replace("First", "Second title, from: 2500*shorten, label: run + ' of one model'").replace("histograms", "histograms --guide=-1:1:10"))
+    write(
+        CHAIN,
+        pages.replace("First", "Second title, from: 2500*shorten, label: run + ' of one model'").replace("histograms", "histograms --guide=-1:1:10"))
     run(study, "my.csv")
     page = Path("out/report.html").read_text()
     later = sum(line[0] not in "#e" and float(line.split(",")[1]) >= 2500 for line in open("out/c_1/catalogue.csv"))
@@ -468,6 +469,9 @@ def test_names_that_programs_do_not_have_are_refused(plan):
 @pytest.mark.parametrize("text, said", [
     ("run,program,seed,seed\nc,slider,1,2\n", "my.csv:1: column 'seed' twice, expected once"),
     ("run,program,,seed\nc,slider,1,2\n", "my.csv:1: a column without a name, expected one"),
+    ("run;program\nc;slider\n", "my.csv:1: no column 'program', expected one, and commas in place of semicolons"),
+    ("run\tprogram\nc\tslider\n", "my.csv:1: no column 'program', expected one, and commas in place of tabs"),
+    ("run,program\nc,slider\n".encode("utf-16-le"), "my.csv:1: not UTF-8, expected a table of runs in UTF-8"),
     ("run,program,seed\nc,slider,3-1\n", "my.csv:2: seed '3-1', expected the smaller one first"),
     ("run,program,seed,settings\nc,slider,1,seed=5\n", "my.csv:2: settings 'seed=5', but there is seed=1 already"),
     ("run,program,settings\nc,slider,kl=1 kl=2\n", "my.csv:2: settings 'kl=2', but there is kl=1 already"),
@@ -491,6 +495,7 @@ def test_tables_that_say_what_is_wrong(plan, text, said):
 def test_tables_that_are_right(plan, work):
     assert plan("run,program,pe-series\nc,slider,{here}/pe.bin\n").runs["c"].words == [f"pe-series={work}/pe.bin"]
     assert list(plan("\ufeffrun,program\nlock,slider\n").runs) == ["lock"], "a mark of the byte order"
+    assert list(plan("run,program\r\nc,slider\r\n,\r\n").runs) == ["c"], "line ends of Windows, and an empty line of a spreadsheet"
     assert list(plan("run,program,seed\nc_{seed},slider,4-6\n", seeds=2).runs) == ["c_4", "c_5"]
 
 
@@ -583,6 +588,17 @@ def test_first_loading_has_a_name(plan):
     found = plan("run,program\nc,slider\n", "values:\n  begin: loading/2\nnumbers:\n  count: count {catalogue} --from {loading} --to {begin}\n")
     words = f"count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g}"
     assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} {words} --overwrite"
+
+
+def test_first_loading_is_left_out(plan):
+    """Without a recipe tables and page begin when a fault is loaded, which lasts the longer the slower the plates are; a run that ends before is whole."""
+    found = plan("run,program,velocity,steps\na,fault,,\nfast,fault,1e-3,\nshort,fault,,2000\nc,slider,,\n")
+    for name, begin in ("a", LOADING), ("fast", 1200 + (LOADING - 1200) / 4), ("short", 0), ("c", 0):
+        for number in "count", "fit", "times":
+            words = found.command(found.runs[name], number).split()
+            assert [word for option, word in zip(words, words[1:]) if option == "--from"] == [f"{begin:.15g}"] * (begin > 0), (name, number, words)
+        assert found.begin(found.part("pages")["report"], found.runs[name]) == f"{begin:.15g}"
+        assert found.row(found.runs[name], found.part("table").values())[1] in (begin, f"{begin:.6g}")
 
 
 @pytest.mark.parametrize("config, said", [
