@@ -453,7 +453,7 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
       packing.loose_tangent, packing.weakest);
 }
 
-// 8 % at the time step for statistics †
+// 8 % at the time step for statistics (*)
 static constexpr double MUCH_MASS = 20.0;
 
 void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vector<double> &masses)

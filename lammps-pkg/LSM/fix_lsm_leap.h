@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lattice Solid Model: leaps between events †
+// Lattice Solid Model: leaps between events (*)
 
 #ifdef FIX_CLASS
 // clang-format off

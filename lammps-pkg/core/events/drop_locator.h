@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/drop_locator.h
-/// How far a fault along a line slipped during drops of PE, and where † (the paper does not locate
-/// events).
+/// How far a fault along a line slipped during drops of PE, and where (*) (the paper does not
+/// locate events).
 #ifndef LSM_DROP_LOCATOR_H
 #define LSM_DROP_LOCATOR_H
 

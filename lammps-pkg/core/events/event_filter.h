@@ -14,8 +14,8 @@
 namespace LSM {
 
 struct FilterSettings {
-  double min_size = 0.0;          ///< positive sizes below this are left out †
-  bool keep_nonpositive = false;  ///< events of size <= 0 are written too, whatever min_size is †
+  double min_size = 0.0;          ///< positive sizes below this are left out (*)
+  bool keep_nonpositive = false;  ///< events of size <= 0 are written too, whatever min_size is (*)
   /// Events that start before this time are left out.
   double warmup = -std::numeric_limits<double>::infinity();
 };

@@ -21,7 +21,7 @@ struct PickerSettings {
 };
 
 /// Leakiness that gives the exponential reading the memory memory_time, whatever the sampling
-/// interval dt (same units): exp(-dt/memory_time) †.
+/// interval dt (same units): exp(-dt/memory_time) (*).
 /// \throws std::invalid_argument unless both are positive and finite.
 inline double lambda_from_memory_time(double memory_time, double dt) {
   if (!std::isfinite(memory_time) || !(memory_time > 0.0))

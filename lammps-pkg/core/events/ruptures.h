@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file ruptures.h
 /// Events of a fault as ruptures: sets of slipping contacts connected along the fault and in time
-/// † (the paper picks drops of the total potential energy, PE).
+/// (*) (the paper picks drops of the total potential energy, PE).
 ///
 /// Contacts are summed in bins along the fault, or in cells of a plane, and in intervals of so many
 /// steps. A bin slips in an interval if its mean slip velocity exceeds a given one. It is then

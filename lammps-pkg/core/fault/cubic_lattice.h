@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file fault/cubic_lattice.h
-/// Two blocks of the simple cubic lattice with a flat fault between them †.
+/// Two blocks of the simple cubic lattice with a flat fault between them (*).
 ///
 /// Each node is linked along 6 edges and 12 diagonals of faces, all of the same stiffness k: C11 =
 /// 3 k/a, C12 = C44 = k/a, which is isotropic. Every cube contributes a quarter of each of its 12

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file fault/lattice.h
 /// Two blocks of the regular triangular lattice whose rows at the fault are mirror images of each
-/// other †.
+/// other (*).
 #ifndef LSM_LATTICE_H
 #define LSM_LATTICE_H
 

@@ -648,7 +648,7 @@ Faces faces_of(const PackingSettings &s, const Packing &packing) {
   return faces;
 }
 
-/// With less, the blocks are rubble that touches in a few places. †
+/// With less, the blocks are rubble that touches in a few places. (*)
 constexpr double LEAST_COVERED = 1.0 / 3.0;
 
 }  // namespace

@@ -21,12 +21,12 @@ struct PackingSettings {
   int max_failures = 5000;   ///< a tile is full after so many failures in a row
   double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
-  double fault_zone = 0.25;  ///< † discs with a surface so close to the fault line are flagged
-  bool remove_loose = true;  ///< † remove discs that their links do not hold, see Packing::loose
+  double fault_zone = 0.25;  ///< (*) discs with a surface so close to the fault line are flagged
+  bool remove_loose = true;  ///< (*) remove discs that their links do not hold, see Packing::loose
   double link_ratio = 1.0;  ///< so are those closer than this times the sum of the radii, 1 to 1.25
   bool random_faces = true;  ///< place the faces first, see make_packing()
   bool random_seeds = true;  ///< seeds at random places, not on a grid
-  bool mirror = false;       ///< † the upper block is the mirror image of the lower one
+  bool mirror = false;       ///< (*) the upper block is the mirror image of the lower one
 };
 
 /// One disc. Centre in [0, length) x (0, width).
@@ -38,8 +38,8 @@ struct Disc {
 };
 
 /// Number of links that a disc needs to be held. Two links hold a disc that does not rotate only
-/// while it is pushed into the wedge between them †: such discs were seen to oscillate and hop, see
-/// doc/create_lsm_fault.rst.
+/// while it is pushed into the wedge between them (*): such discs were seen to oscillate and hop,
+/// see doc/create_lsm_fault.rst.
 constexpr int ENOUGH_LINKS = 3;
 
 /// The result: discs in sections of 64 rmax along x, in each section first those of the fault zone,
@@ -75,14 +75,14 @@ std::pair<double, double> link_vector(double length, const Disc &a, const Disc &
 /// (3) a random point, the three objects nearest to it (discs by surface distance, the two lines of
 /// the block), the circle tangent to all three, kept if its radius is in [rmin, rmax], it lies
 /// inside the block and it overlaps nothing, until none fits. For (1) and (3) the block is cut into
-/// tiles along x (about 15 rmax long) †, and each tile is full when max_failures consecutive
-/// tries in it failed. The cost is linear in the length. Finally (4) † discs that their links
-/// do not hold are removed: see Packing::loose. With mirror † only the lower block is packed,
+/// tiles along x (about 15 rmax long) (*), and each tile is full when max_failures consecutive
+/// tries in it failed. The cost is linear in the length. Finally (4) (*) discs that their links
+/// do not hold are removed: see Packing::loose. With mirror (*) only the lower block is packed,
 /// and each of its discs at the fault line faces one of the same radius at the same x.
 ///
-/// Without random_faces †, as in the later particle code of one of the authors, there is no step
+/// Without random_faces (*), as in the later particle code of one of the authors, there is no step
 /// (1), both blocks are packed at once, the fault line is one of the lines of step (3), and there
-/// is one tile, whatever the length. Without random_seeds † the seeds of step (2) are discs of
+/// is one tile, whatever the length. Without random_seeds (*) the seeds of step (2) are discs of
 /// random radius at x = 2 rmax (i + (j mod 2) / 2), y = sqrt(3) rmax j where they fit.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.

@@ -21,8 +21,8 @@ namespace LSM {
 /// How drops of PE are picked, as headers state it: interpretations of the paper's formula for the
 /// average change of PE, called A here, with x = PE(t+1) - PE(t).
 enum class PickerReading {
-  exponential,  ///< A <- lambda A + (1 - lambda) x (default) †, memory 1/(1 - lambda) samples
-  average,      ///< A <- (x + lambda A) / (1 + lambda) †, memory of about two samples
+  exponential,  ///< A <- lambda A + (1 - lambda) x (default) (*), memory 1/(1 - lambda) samples
+  average,      ///< A <- (x + lambda A) / (1 + lambda) (*), memory of about two samples
   literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
 };
 

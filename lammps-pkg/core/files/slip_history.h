@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/slip_history.h
 /// Slip of a fault in space and time, for pictures and for finding ruptures again with other
-/// settings †. Bins and intervals are those of files/fault_grid.h; intervals without slip are
+/// settings (*). Bins and intervals are those of files/fault_grid.h; intervals without slip are
 /// merged.
 ///
 /// Binary: 16 bytes "lsm-slip-hist-1\n", int64 length of the header, the header (lines

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file coulomb.h
-/// Coulomb friction, Eq. (3) of Weatherley & Abe 2004, with a tangential spring †.
+/// Coulomb friction, Eq. (3) of Weatherley & Abe 2004, with a tangential spring (*).
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(Coulomb)
 LSM_FRICTION_LAW(CoulombStatic)
@@ -30,7 +30,7 @@ struct Coulomb : FrictionLaw {
   }
 };
 
-/// Coulomb friction with a static coefficient above the dynamic one †, which applies to contacts
+/// Coulomb friction with a static coefficient above the dynamic one (*), which applies to contacts
 /// that did not slide in the step before.
 struct CoulombStatic : Coulomb {
   static constexpr bool needs_sliding = true;

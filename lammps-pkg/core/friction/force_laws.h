@@ -16,7 +16,7 @@ inline double share_in_contact(double r_before, double r, double r0) {
   return r_before > r ? (r0 - r) / (r_before - r) : 0.0;
 }
 
-/// Effective size of a contact for the slip moment †: twice the reduced radius.
+/// Effective size of a contact for the slip moment (*): twice the reduced radius.
 inline double contact_size(double ri, double rj) { return 2.0 * ri * rj / (ri + rj); }
 
 }  // namespace LSM

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction_law.h
-/// The interface of friction laws. Every law acts through a tangential spring of stiffness kt †: in
-/// each step it determines how far the spring stays stretched, and the rest of the displacement is
-/// slip. Functions that the block-slider uses as well are templates for numbers and SIMD vectors.
-/// They are always inlined, as functions compiled for other instruction sets pass such vectors
-/// differently. README.md of the package explains how to add a law.
+/// The interface of friction laws. Every law acts through a tangential spring of stiffness kt (*):
+/// in each step it determines how far the spring stays stretched, and the rest of the displacement
+/// is slip. Functions that the block-slider uses as well are templates for numbers and SIMD
+/// vectors. They are always inlined, as functions compiled for other instruction sets pass such
+/// vectors differently. README.md of the package explains how to add a law.
 #ifndef LSM_FRICTION_LAW_H
 #define LSM_FRICTION_LAW_H
 

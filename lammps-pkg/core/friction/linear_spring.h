@@ -2,7 +2,7 @@
 /// \file linear_spring.h
 /// Linear spring along the line of centres, Eqs. (1) and (2) of Weatherley & Abe 2004: links that
 /// may break, contacts that only repel. A positive force is attraction. The rest length of a
-/// pair is the sum of the two radii † (nothing per link is stored).
+/// pair is the sum of the two radii (*) (nothing per link is stored).
 #ifndef LSM_LAW_LINEAR_SPRING_H
 #define LSM_LAW_LINEAR_SPRING_H
 
@@ -22,7 +22,7 @@ struct Spring {
 };
 
 /// Kelvin-Voigt: a dashpot parallel to the spring, whose viscosity is the stiffness times a
-/// retardation time †. Attractive force at the given rate of the stretch.
+/// retardation time (*). Attractive force at the given rate of the stretch.
 struct Dashpot {
   template <class Number>
   [[gnu::always_inline]] static Number force(double viscosity, const Number &rate) {

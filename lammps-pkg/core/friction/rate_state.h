@@ -31,7 +31,7 @@ struct RateState : FrictionLaw {
   static constexpr bool needs_time = true;
   static constexpr int state_size = 1;  // theta
 
-  /// Unless theta is given, a contact begins in the state after long sliding at v0 †.
+  /// Unless theta is given, a contact begins in the state after long sliding at v0 (*).
   static void begin(const Coefficients &c, double *theta) {
     *theta = c.theta > 0.0 ? c.theta : c.dc / c.v0;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_weakening.h
 /// Linear slip weakening (Ida 1972, Andrews 1976): the strength falls from mu_static fn to mu fn
-/// over the slip dc. A contact at rest forgets its slip with the time constant `heal` † (0:
+/// over the slip dc. A contact at rest forgets its slip with the time constant `heal` (*) (0:
 /// never, as in Andrews). The block-slider uses the same strength.
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(SlipWeakening)
