@@ -60,24 +60,6 @@ def test_workflow_runs_the_command_of_the_tests():
         assert {"name", "description", "body"} <= set(fields) and all({"type", "id", "attributes"} <= set(field) for field in fields["body"])
 
 
-def test_into_lammps(work):
-    """The package in a LAMMPS source tree: sources with their version, pages, scenes."""
-    for name in ("src", "cmake", "doc/src"):
-        (work / "lammps" / name).mkdir(parents=True)
-    (work / "lammps/src/version.h").write_text('#define LAMMPS_VERSION "4 Feb 2025"\n')
-    (work / "lammps/cmake/CMakeLists.txt").write_text("set(STANDARD_PACKAGES\n  MOLECULE)\n")
-    for _ in range(2):
-        subprocess.run([SOURCE / "lammps-pkg/install-into-lammps.sh", work / "lammps"], check=True, capture_output=True)
-    assert (work / "lammps/src/LSM/lsm_version.h").read_text() == f'#define LSM_VERSION "{VERSION}"\n'
-    for page in (SOURCE / "lammps-pkg/doc").glob("*.rst"):
-        assert (work / "lammps/doc/src" / page.name).exists() == (page.name != "index.rst")
-    scenes = [path for ending in ("in", "variables") for path in (SOURCE / "inputs").glob(f"*.{ending}")]
-    assert {path.name for path in scenes} == {path.name for path in (work / "lammps/examples/PACKAGES/lsm").iterdir()}
-    list_file = ("set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\nif(PKG_LSM)\n  find_package(ZLIB REQUIRED)\n"
-                 "  target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM\nendif()\n")
-    assert (work / "lammps/cmake/CMakeLists.txt").read_text() == list_file
-
-
 def test_pages_of_an_installation(lmp, postproc, slider, work):
     subprocess.run(["cmake", "--install", BUILD, "--prefix", work / "usr"], check=True, capture_output=True)
     documents = work / "usr/share/doc/lsm-fault"
