@@ -130,12 +130,12 @@ def _binary(path, magics, what):
     return header_of(raw[24:24 + length].decode("utf-8", "replace").splitlines()), memoryview(raw)[24 + length:], magics.index(raw[:16]) + 1
 
 
-def _records(path, raw, kinds):
-    """The complete records; their steps, in the first column, increase. After a power failure zeros may follow."""
+def _records(path, raw, kinds, empty=False):
+    """The complete records; their steps, in the first column, increase, but after one that is empty. After a power failure zeros may follow."""
     kind = np.dtype(kinds)
     records = np.frombuffer(raw, kind, len(raw) // kind.itemsize)
     steps = records[kind.names[0]]
-    wrong = np.flatnonzero(steps[1:] <= steps[:-1])
+    wrong = np.flatnonzero((steps[1:] < steps[:-1]) | ((steps[1:] == steps[:-1]) & (not empty)))
     if len(wrong):
         n = wrong[0] + 1
         raise ValueError(f"{path}: record {n + 1}: step {steps[n]} after step {steps[n - 1]}, expected increasing steps")
@@ -166,7 +166,7 @@ def read_slip(path):
             raise ValueError(f"{path}: parameter '{name}' is {bins}, expected at least 1")
     components = (2,) if version == 2 else ()
     places = [("slip", "<f4", shape + components), ("work", "<f4", shape), ("stress", "<f4", shape + components)]
-    return Table(_records(path, raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)
+    return Table(_records(path, raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places, empty=True), header)
 
 
 def spectrum(series, segment=None):

@@ -124,6 +124,17 @@ def test_series_that_is_none(work, raw, said):
         lsm.read_series("a.bin")
 
 
+def test_slip_of_a_run_begins_with_an_empty_record(work):
+    """As each run that goes on after another does; zeros after a power failure are no record."""
+    kind = [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8"), ("slip", "<f4"), ("work", "<f4"), ("stress", "<f4")]
+    records = np.array([(40, 40, 1, 0, 0, 0), (40, 60, 1, 1, 1, 1), (60, 80, 1, 1, 1, 1)], kind)
+    (work / "a.bin").write_bytes(binary(b"lsm-slip-hist-1\n", b"# bins = 1\n", records.tobytes()))
+    assert lsm.read_slip("a.bin")["step_end"].tolist() == [40, 60, 80]
+    (work / "a.bin").write_bytes(binary(b"lsm-slip-hist-1\n", b"# bins = 1\n", records.tobytes() + bytes(36)))
+    with pytest.raises(ValueError, match="record 4: step 0 after step 60"):
+        lsm.read_slip("a.bin")
+
+
 def series_of(pe, spacing=0.5):
     made = np.empty(len(pe), [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")])
     made["step"], made["time"], made["pe"] = np.arange(len(pe)), spacing * np.arange(len(pe)), pe

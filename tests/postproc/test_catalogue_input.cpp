@@ -120,8 +120,9 @@ TEST_F(CatalogueInput, EventsTakeNoMoreMemoryThanTheirUse) {
     EXPECT_EQ(event.t_start, 2.0 * static_cast<double>(event.id));
     EXPECT_EQ(event.step_end, 10 * (2 * event.id + 1));
   }
-  EXPECT_TRUE(std::is_sorted(largest.begin(), largest.end(),
-                             [](const EventRow &a, const EventRow &b) { return a.t_start < b.t_start; }));
+  EXPECT_TRUE(
+      std::is_sorted(largest.begin(), largest.end(),
+                     [](const EventRow &a, const EventRow &b) { return a.t_start < b.t_start; }));
   options.details = CatalogueOptions::all_events;
   EXPECT_EQ(load_catalogue(name, options).details.size(), 1000u);
 }
