@@ -484,7 +484,9 @@ def publish_runs(postproc, *names):
     full = [folder for folder in folders if folder not in slow]
     (FOLDER / "faults").mkdir(exist_ok=True)
     for folder in full:
-        publish(folder / "fault.catalogue.csv", FOLDER / f"faults/{folder.name}.catalogue.csv.xz")
+        new, published = folder / "fault.catalogue.csv", FOLDER / f"faults/{folder.name}.catalogue.csv.xz"
+        if not published.exists() or lsm.read_catalogue(published)["t_end"].max() < lsm.read_catalogue(new)["t_end"].max():  # a longer one stays
+            publish(new, published)
     find_ruptures(*full)
     pick_again(postproc, *(folder for folder in folders if "_120_" in folder.name))
     find_bursts(postproc, *(folder for folder in full if "_120_" in folder.name))
