@@ -49,6 +49,7 @@ void FixLSMHistory::pre_exchange()
 {
   static_cast<PairLSMFriction *>(pair)->note_contacts();
   FixNeighHistory::pre_exchange();
+  gathered = true;
 }
 
 void FixLSMHistory::post_neighbor()
@@ -72,10 +73,11 @@ void FixLSMHistory::add_pair(int i, int jj)
 
 // Fix NEIGH_HISTORY would gather the history of each particle from the neighbor list again. The
 // command write_restart has moved particles and renewed ghosts by then, so the list refers to other
-// particles. Between two runs each particle has its history already, see post_run().
+// particles. Between two runs, and between the pieces of one, each particle has its history
+// already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {
-  if (update->whichflag) pre_exchange();
+  if (!gathered) pre_exchange();
   if (comm->me) return;
   const int size = law.empty() ? 0 : static_cast<int>(law.size()) + 1;
   fwrite(&size, sizeof(int), 1, fp);

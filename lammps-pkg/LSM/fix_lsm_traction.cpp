@@ -63,6 +63,8 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
 FixLSMTraction::~FixLSMTraction()
 {
   const std::string store = std::string(id) + "_store";
+  if (force)
+    for (auto *const pair : LSMScene::contact_styles(force)) pair->forget_radii();
   if (modify && modify->get_fix_by_id(store)) modify->delete_fix(store);
 }
 

@@ -129,10 +129,11 @@ bool PairLSMFree::is_viscous() const
   return false;
 }
 
-// whether pair_write asks, which knows types and distances only
+// whether pair_write asks, which knows types and distances only; the next run, or the next piece of
+// this one, begins with the same last command
 bool PairLSMFree::is_for_table() const
 {
-  return update->whichflag == 0 && LSMScene::is_command(lmp, "pair_write");
+  return near.is_empty() && LSMScene::is_command(lmp, "pair_write");
 }
 
 // a minimizer has no velocities
@@ -392,7 +393,8 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
 {
   fforce = 0.0;
   const double r = sqrt(rsq);
-  const double r0 = contact_radii()[i] + contact_radii()[j];
+  const double r0 = is_for_table() ? maxrad[itype] + maxrad[jtype]
+                                   : contact_radii()[i] + contact_radii()[j];
   const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
   if (!active[lo][hi] || r >= r0 || r == 0.0) return 0.0;
   double push = -LSM::Spring::force(k[lo][hi], r - r0), rate;

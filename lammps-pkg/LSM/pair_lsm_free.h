@@ -48,6 +48,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
     return stiffness(itype, jtype) * delay[itype][jtype];
   }
   bool is_viscous() const;    ///< by its coefficients
+  /// Contacts have the radii of particles again.
+  void forget_radii() { own_radii = nullptr; }
 
  protected:
   LSMTypePairs<double> k;        // contact stiffness

@@ -120,6 +120,7 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
   else
     LSMFriction::Loop<Law, Recorder, 2>(scene).run();
   near.states_changed();
+  fix_history->contacts_changed();
   if (screened) near.write_states();    // only here it is known which pairs are left out
 }
 

@@ -53,8 +53,11 @@ def test_the_first_command_has_enough_of_lammps(lmp, work):
         run(program, scene(length=24, settle=400, steps=3000, velocity=0.005, ruptures="yes"), cwd=work / name)
     for path in sorted((work / "whole").iterdir()):
         same_bytes(path, work / "small" / path.name)
-    Path("langevin.in").write_text("region box block 0 1 0 1 0 1\ncreate_box 1 box\nfix 1 all langevin 1 1 1 1\n")
-    refused(small, "-in langevin.in", "Unrecognized fix style 'langevin'")
+    refused(small, scene(length=24, extra="fault_image"), "Unrecognized dump style 'image'; lmp_fault has only what a fault needs, use lmp")
+    for line, said in ("fix 1 all langevin 1 1 1 1", "fix style 'langevin'"), ("write_data none", "command: write_data"), ("region 1 sphere 0 0 0 1",
+                                                                                                                           "region style 'sphere'"):
+        Path("more.in").write_text(f"region box block 0 1 0 1 0 1\ncreate_box 1 box\n{line}\n")
+        refused(small, "-in more.in", f"Un.* {said}.*; lmp_fault has only what a fault needs, use lmp")
 
 
 def moves_as_with_new_lists(lmp, work, first, last):

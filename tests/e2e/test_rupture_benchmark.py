@@ -107,6 +107,10 @@ def test_a_rupture_keeps_its_variables(lmp):
     tpv5(lmp, "part", tend=1)
     refused(lmp, ["-in", "tpv5.in", *scene(restart="part.restart.20", dx=900, checkpoint=20)[2:]],
             "Variable dx is 900, but restart file part.restart.20 was written with dx = 1000, which it cannot change")
+    for checkpoint in 0, 20:
+        early = {**TPV5, "prefix": "part", "restart": "part.restart.20", "tend": 0.5, "checkpoint": checkpoint}
+        refused(lmp, ["-in", "tpv5.in", *scene(**early)[2:]],
+                "Variable tend is 0.5, but must be at least 1, the time of restart file part.restart.20")
 
 
 def test_tpv5_on_ranks(on_ranks):

@@ -370,6 +370,49 @@ void rerun_is_refused() {
   }
 }
 
+// Faces that are pressed on each other move together across borders of ranks and of the period, and
+// a restart file is written after each three steps of `run N every 3`, when particles have left
+// their ranks or were wrapped since the list was built. Neither that run nor one that continues
+// from a file is another motion.
+void restart_files_between_pieces() {
+  const std::string load = R"(
+comm_modify mode single cutoff 4.5
+neighbor 0.4 bin
+fix press above addforce 0 -0.05 0
+fix hold below addforce 0 0.05 0
+fix go all lsm/nve
+)";
+  const std::string begin =
+      sliding(2, "slip-weakening mu 0.3 mu_static 0.5 dc 0.01 heal 0.1") +
+      "unfix move\ndisplace_atoms below move 0.85 0 0\ndisplace_atoms above move 1.15 0 0\n"
+      "velocity all set 0.3 0 0\nvelocity above set 0.31 0 0\n" +
+      load;
+  std::string error;
+  const auto motion = [&error](const std::string &script) {
+    Session one(script);
+    const auto state = one.state(false);
+    error = one.error;
+    return state;
+  };
+  const auto right = motion(begin + "run 18 every 3 NULL\n");
+  check(error.empty(), "pieces: " + error);
+  const auto same = [&](const std::string &script, const std::string &what) {
+    auto found = motion(script);
+    double worst = 0.0;
+    if (error.empty())
+      for (const char *of : {"x", "v", "f"})
+        for (std::size_t n = 0; n < right.at(of).size(); n++)
+          worst = std::max(worst, std::fabs(std::remainder(found[of].at(n) - right.at(of)[n],
+                                                           *of == 'x' ? 16.0 : 1e9)));
+    check(error.empty() && worst < 1e-9, what + ": " + error + " " + std::to_string(worst));
+  };
+  same(begin + "run 18 every 3 \"write_restart b.*.restart\"\n", "restart files between pieces");
+  for (int step : {6, 9})
+    same("read_restart b." + std::to_string(step) + ".restart\n" + load +
+             "run 18 upto every 3 NULL\n",
+         "a run from step " + std::to_string(step) + " between pieces");
+}
+
 // A fault that slides keeps the forces of its contacts when fix lsm/traction adds nothing to them.
 void traction_keeps_contacts() {
   std::vector<double> forces[2];
@@ -409,6 +452,23 @@ run 20
                                           std::to_string(worst) + " of " + std::to_string(most));
 }
 
+// Once fix lsm/traction is gone, contacts have the radii of particles at once.
+void contacts_without_traction() {
+  double most[2] = {0.0, 0.0};
+  for (const char *command : {"", "\"unfix load\" "}) {
+    Session one(radiating(2));
+    one.run(
+        "compute p all pair/local force\ncompute most all reduce max c_p inputs local\n"
+        "displace_atoms above move 0 -1e-3 0\nrun 1 every 1 " +
+        std::string(command) + "\"print '$(c_most)' file b.force screen no\"\n");
+    check(one.error.empty(), "unfix of fix lsm/traction: " + one.error);
+    std::ifstream("b.force") >> most[*command != '\0'];
+  }
+  check(rank || (most[0] > 1.5e-3 && std::fabs(most[1] - 1e-3) < 1e-4),
+        "contacts after unfix of fix lsm/traction: " + std::to_string(most[0]) + " " +
+            std::to_string(most[1]));
+}
+
 void bond_write_knows_the_rest_length() {
   std::remove("b.bond");
   Session one(links(2, "", "pair_style lsm/free\npair_coeff * * 1.0\n"));
@@ -419,21 +479,28 @@ void bond_write_knows_the_rest_length() {
         "bond_write before the first run: " + one.error + table);
 }
 
-// pair_write knows types and distances: neither dashpots nor friction, nor lists before a run.
-void tables_before_the_first_run() {
-  std::remove("b.pair");
-  Session one(sliding(2, "coulomb 0.3"));
-  one.run("pair_coeff 1 2 1.0 1.0 0.3 kelvin-voigt 5\npair_write 1 2 3 r 1 2 b.pair K\n");
-  std::ifstream in("b.pair");
-  std::string line, table;
-  while (std::getline(in, line))
-    if (line.find("       2 ") == 0) table = line;
-  std::istringstream words(table);
-  double n = 0.0, r = 0.0, energy = 0.0, force = 0.0;
-  words >> n >> r >> energy >> force;
-  check(one.error.empty() &&
-            (rank || (std::fabs(energy - 0.125) < 1e-9 && std::fabs(force - 0.5) < 1e-9)),
-        "pair_write before the first run: " + one.error + table);
+// pair_write knows types and distances: neither dashpots nor friction nor lists, and of each type
+// the largest radius, on whichever rank; before a run, after one, and between its pieces.
+void tables_of_types() {
+  for (const char *how : {"", "run 2\n", "run 4 every 2 "}) {
+    std::remove("b.pair");
+    Session one(sliding(2, "coulomb 0.3"));
+    const std::string write = "pair_write 1 2 3 r 1 2 b.pair K";
+    one.run(
+        "set type 2 diameter 1\nset atom 12 diameter 3\nvelocity above set 0.1 0 0\n"
+        "pair_coeff 1 2 1.0 1.0 0.3 kelvin-voigt 0.5\n" +
+        std::string(how) + (std::strstr(how, "every") ? '"' + write + '"' : write) + "\n");
+    std::ifstream in("b.pair");
+    std::string line, table;
+    while (std::getline(in, line))
+      if (line.find("       2 ") == 0) table = line;
+    std::istringstream words(table);
+    double n = 0.0, r = 0.0, energy = 0.0, force = 0.0;
+    words >> n >> r >> energy >> force;
+    check(one.error.empty() &&
+              (rank || (std::fabs(energy - 0.5) < 1e-9 && std::fabs(force - 1.0) < 1e-9)),
+          std::string(how) + "pair_write: " + one.error + table);
+  }
 }
 
 }  // namespace
@@ -478,8 +545,10 @@ int main(int argc, char **argv) {
     rerun_has_velocities();
     rerun_is_refused();
     traction_keeps_contacts();
+    contacts_without_traction();
+    restart_files_between_pieces();
     bond_write_knows_the_rest_length();
-    if (ranks == 1) tables_before_the_first_run();  // LAMMPS takes radii of two particles of rank 0
+    tables_of_types();
   }
   // On several ranks, a scene in a plane, one in space, and the fault.
   if (ranks > 1) scenes = {scenes[2], scenes[scenes.size() - 4], scenes.back()};

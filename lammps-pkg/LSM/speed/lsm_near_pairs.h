@@ -54,6 +54,7 @@ class LSMNearPairs : public LSMContacts {
   void write_states();
   /// Forgets all, for a list of another kind, or because the store has changed.
   void forget() { build_number = -1; }
+  bool is_empty() const { return build_number < 0; }
   /// Finds again which pairs are across the fault, for groups that change.
   void find_sides();
   /// Whether a pair must not interact, for lists that hold such pairs.
