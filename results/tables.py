@@ -25,6 +25,7 @@ import numpy as np
 FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / "python"), str(FOLDER.parent / "inputs"), str(FOLDER / "speed")]
 import faults as article  # noqa: E402
+import index  # noqa: E402
 import lsm  # noqa: E402
 import nature  # noqa: E402
 import page_values  # noqa: E402
@@ -391,13 +392,15 @@ def laws_table():
 
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
 TABLES |= {name: lambda made=made: table(*made()) for name, made in (speed_tables.TABLES | validation_tables.TABLES).items()}
-TABLES |= {"walk": lambda: table(*walk.table(shown))}
+TABLES |= {"walk": lambda: table(*walk.table(shown)), "index": lambda: table(*index.keys_table()), "files": lambda: table(*index.files_table())}
 
 NEW_FORM = ("article", "validation", "beyond", "methods", "speed")
 
 
 def check(write):
-    wrong, keyed = 0, values.read()
+    unsaid, keyed = index.wrong(), values.read()
+    wrong = int(bool(unsaid))
+    print("\n".join(unsaid), end="\n" * wrong)
     for page in sorted(FOLDER.glob("*.md")) + [FOLDER.parent / "README.md"]:
         text = page.read_text()
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the files of this folder and the numbers of sentences are, which program makes them, and of which study's runs. Each file has one line."""
+import subprocess
+from fnmatch import fnmatch
+from pathlib import Path
+
+import values
+
+FOLDER = Path(__file__).resolve().parent
+# what a key begins with, what the number is
+KEYS = (
+    ("rate ratio", "rates of drops and of slips, and how much the faults differ in them"),
+    ("exponent gamma B mean_time run within",
+     "exponent of sizes, gamma, B and mean time of drops, by likelihood; how many runs are within the tolerances"),
+    ("estimator cut", "gamma and B with other smallest sizes, memories, smallest times and estimators"),
+    ("velocity", "rates at half the velocity of the plates"),
+    ("share", "share of drops that are slip, with two nulls"),
+    ("budget", "work of friction, and the share of large slips in it"),
+    ("ruptures place", "ruptures by the work of friction, times between them at one place"),
+    ("burst trapped", "stretches in which single discs ring, and these discs"),
+    ("crossing spectrum", "drops after a large one; series that have the spectrum only"),
+    ("scaling", "how the largest drops and ruptures go with the length"),
+    ("calibration", "how many of the values that were tried meet a statement"),
+    ("slider chain walk", "the block-slider, and stations between it and the fault"),
+    ("tpv205 tpv3 tpv5 single absorbing_step leaky_step", "flat ruptures, single events, time steps"),
+    ("nature slow laws", "earthquakes, slow plates, friction laws"),
+    ("speed", "speed beside other programs"),
+)
+# pattern of files, what they are, what makes them, study
+FILES = (
+    ("values.csv", "numbers of sentences", "tables.py --values", "all"),
+    ("rates.* velocity.* estimators.* ruptures.*", "figures of the article, with their data", "faults.py", "article"),
+    ("picked.csv ruptures_tests.csv bursts.csv trapped.csv spectrum.csv", "what needs whole series of a run", "faults.py publish, faults.py discs",
+     "article"),
+    ("faults/*", "catalogues and ruptures of the three faults", "faults.py publish, publish.py", "article, paper"),
+    ("campaign/*", "the absorbing fault at all lengths, drops and ruptures", "publish.py", "campaign"),
+    ("validation/* slip/*", "wider blocks; the leaky fault with half the time step", "publish.py", "validation, paper"),
+    ("damping.*", "energies of the three faults", "slip_or_exchange.py figure", "article, extra=fault_energy"),
+    ("calibration.csv calibration.statements.csv calibration/*", "values that were tried, and what they give", "calibrate.py",
+     "calibration, slider-calibration"),
+    ("packing/* packing.png", "places of the discs at the fault, with seeds on a grid and at random", "packing.gp", ""),
+    ("catalogues/* fig13_slider_sizes.*", "block-sliders", "publish.py, postproc histograms", "campaign"),
+    ("walk/* walk.*", "stations between the block-slider and the fault", "walk.py", "walk"),
+    ("nature.*", "the models beside earthquakes", "nature.py", "campaign, walk"),
+    ("slow-driving*", "slow plates", "study.sh", "slow-driving, slow-driving-slider"),
+    ("laws.csv", "six friction laws", "study.sh", "laws"),
+    ("accuracy_* extremes.csv lattice.stiffness.csv waves_*", "errors of time steps, stiff and extreme cases, waves", "target accuracy, study.sh",
+     "work-precision"),
+    ("rupture_benchmark* rupture_crack.csv rupture_packing-stations.csv rupture_tpv3-stations.csv", "flat ruptures in two dimensions",
+     "rupture_benchmark.py", ""),
+    ("rupture_3d*", "TPV5", "rupture_3d.py", "ruptures"),
+    ("speed.* speed/*", "timings", "targets bench-lsm, bench-slider", ""),
+    ("explore.png fault_event.png fig8_to_11_series.* rupture_event.* tutorial_*", "pictures of short runs", "pictures.sh run", ""),
+)
+
+
+def files():
+    """Those of the folder that git knows or would add, without pages and scripts."""
+    words = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "."]
+    names = subprocess.run(words, cwd=FOLDER, capture_output=True, text=True, check=True).stdout.split("\n")
+    return [name for name in sorted(set(names)) if name and not name.endswith((".md", ".py", ".sh", ".gp")) and (FOLDER / name).exists()]
+
+
+def lines_of(name):
+    return [line for line in FILES if any(fnmatch(name, pattern) for pattern in line[0].split())]
+
+
+def wrong():
+    """Files without a line or with two, keys without one, and lines without a file."""
+    found = files()
+    said = [f"{name}: {len(lines_of(name))} lines of index.py say what it is, expected one" for name in found if len(lines_of(name)) != 1]
+    said += [
+        f"index.py: no file is called {pattern}" for line in FILES for pattern in line[0].split()
+        if not any(fnmatch(name, pattern) for name in found)
+    ]
+    known = " ".join(line[0] for line in KEYS).split()
+    return said + [
+        f"{first}: no line of index.py says what these numbers are" for first in sorted({key.split('.')[0]
+                                                                                         for key in values.read()} - set(known))
+    ]
+
+
+def keys_table():
+    """What the numbers are, and from which files."""
+    rows, found = [], values.read()
+    for firsts, what in KEYS:
+        some = [one for key, one in found.items() if key.split(".")[0] in firsts.split()]
+        sources = sorted({word if "/" not in word else word.split("/")[0] + "/" for one in some for word in one.source.split()})
+        rows.append([" ".join(f"`{first}`" for first in firsts.split()), what, str(len(some)), " ".join(f"`{source}`" for source in sources)])
+    return ["keys begin with", "what they are", "keys", "from"], rows
+
+
+def files_table():
+    """What the files are."""
+    rows = []
+    for patterns, what, made, study in FILES:
+        some = [name for name in files() if any(fnmatch(name, pattern) for pattern in patterns.split())]
+        size = sum((FOLDER / name).stat().st_size for name in some) / 1e6
+        rows.append([" ".join(f"`{pattern}`" for pattern in patterns.split()), what, f"`{made}`", study, f"{len(some)}", f"{size:.1f}"])
+    return ["files", "what they are", "made by", "study", "number", "MB"], rows
