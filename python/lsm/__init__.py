@@ -51,6 +51,20 @@ class Table(np.ndarray):
     def __array_finalize__(self, other):
         self.header = getattr(other, "header", {})
 
+    def __reduce__(self):  # pickle knows of the array only
+        make, arguments, state = super().__reduce__()
+        return make, arguments, (state, self.header)
+
+    def __setstate__(self, state):
+        array, self.header = state
+        super().__setstate__(array)
+
+
+def _expect_positive(**numbers):
+    for name, number in numbers.items():
+        if not 0 < number < math.inf:
+            raise ValueError(f"{name} is {number}, expected a number above 0")
+
 
 def _bytes(path):
     with open(path, "rb") as file:
@@ -96,6 +110,9 @@ def read_catalogue(path, lenient=False):
     if first is None:
         raise ValueError(f"{path}: no line of columns, expected 'event_id,t_start,...'")
     names = lines[first].split(",")
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{path}:{first + 1}: column '{name}' is there {names.count(name)} times, expected each once")
     kinds = [np.int64 if name in _INTEGERS else np.float64 for name in names]
     some = lines[first + 1].split(",") if len(lines) > first + 1 else names
     shown = [k for k, (name, field) in enumerate(zip(names, some)) if name in _COMMON or _is_number(field) or some is names]
@@ -203,6 +220,7 @@ def rates(events, width, column="size"):
 
     The edges of the bins are multiples of their width; empty bins count. column: "size" or "slip_moment".
     """
+    _expect_positive(width=width)
     bins = np.floor(np.round(events["t_start"] / width, 9)).astype(np.int64)
     first, count = (bins.min(), bins.max() - bins.min() + 1) if len(bins) else (0, 0)
     number = np.bincount(bins - first, minlength=count)
@@ -215,7 +233,9 @@ def rates(events, width, column="size"):
 def units(length, p_speed, density, thickness=None):
     """What one model unit of the fault is in SI, for a unit of length (m), a speed of P-waves (m/s), a density (kg/m^3) and a thickness (m;
     without it the unit of length): see postproc/units.md. A dict: length, time, velocity, stress, energy, moment."""
+    thickness = length if thickness is None else thickness
+    _expect_positive(length=length, p_speed=p_speed, density=density, thickness=thickness)
     velocity = p_speed / P_SPEED
-    stress, volume = density / DENSITY * velocity**2, length**2 * (thickness or length)
+    stress, volume = density / DENSITY * velocity**2, length**2 * thickness
     return dict(length=length, time=length / velocity, velocity=velocity, stress=stress, energy=stress * volume,
                 moment=density * (S_SPEED * velocity)**2 * volume)

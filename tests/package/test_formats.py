@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files that version 1.0 wrote, in tests/data/1.0, are read by every reader (lammps-pkg/doc/formats.md).
 contents.json says what is in them; neither it nor they are ever changed."""
+import copy
 import gzip
 import json
 import math
+import pickle
 import sys
 from pathlib import Path
 
@@ -100,6 +102,34 @@ def test_python_names_a_damaged_file(postproc):
         Path("damaged.csv.gz").write_bytes(packed[:at] + bytes([packed[at] ^ 0x10]) + packed[at + 1:])
         with pytest.raises(ValueError, match="damaged.csv.gz: "):
             lsm.read_catalogue("damaged.csv.gz")
+
+
+def test_python_keeps_the_header_in_other_processes(postproc):
+    events = lsm.read_catalogue(DATA / CATALOGUES[0])
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        for table in events, events[:2], copy.deepcopy(events):
+            again = pickle.loads(pickle.dumps(table, protocol))
+            assert isinstance(again, lsm.Table) and again.header == events.header and again.header["model"]
+            assert again.dtype == events.dtype and again.tobytes() == table.tobytes()
+
+
+def test_python_refuses_columns_that_are_there_twice(postproc):
+    lines = (DATA / CATALOGUES[0]).read_text().splitlines()
+    first = next(n for n, line in enumerate(lines) if not line.startswith("#"))
+    Path("twice.csv").write_text("\n".join(lines[:first] + [line + "," + line.split(",")[0] for line in lines[first:]]) + "\n")
+    with pytest.raises(ValueError, match=f"^twice.csv:{first + 1}: column 'event_id' is there 2 times, expected each once$"):
+        lsm.read_catalogue("twice.csv")
+
+
+@pytest.mark.parametrize("number", [0, -1, math.nan, math.inf, -math.inf])
+def test_python_refuses_widths_and_units_that_are_none(postproc, number):
+    events = lsm.read_catalogue(DATA / CATALOGUES[0])
+    with pytest.raises(ValueError, match="^width is .*, expected a number above 0$"):
+        lsm.rates(events, number)
+    for name in "length", "p_speed", "density", "thickness":
+        with pytest.raises(ValueError, match=f"^{name} is .*, expected a number above 0$"):
+            lsm.units(**{**dict(length=100, p_speed=6000, density=2700), name: number})
+    assert lsm.units(100, 6000, 2700) == lsm.units(100, 6000, 2700, thickness=100)
 
 
 def test_another_number_is_refused(postproc):
