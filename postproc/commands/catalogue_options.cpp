@@ -101,12 +101,32 @@ void add_displacement(CLI::App *command, CatalogueOptions &of) {
 }
 
 void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::string &otherwise) {
+  const auto read = [&of](const std::string &given) {
+    MagnitudeBins bins;
+    const std::size_t colon = given.find(':');
+    bool good = text::parse(given.substr(0, colon), bins.width) && bins.width >= 0.0 &&
+                std::isfinite(bins.width);
+    if (good && colon != std::string::npos) {
+      double centre = 0.0;
+      good =
+          text::parse(given.substr(colon + 1), centre) && std::isfinite(centre) && bins.width > 0.0;
+      bins.offset = nearest_decimal(
+          centre - bins.width * std::floor(centre / bins.width + magnitude_tolerance));
+    }
+    if (!good)
+      throw std::invalid_argument(
+          "--magnitude-bin " + text::in_quotes(given) +
+          ", expected a width of 0 or more, or one above 0 and a centre, such as 0.1:0.05");
+    of.magnitude_bins = bins;
+  };
   OptionGroup(command, "Catalogues")
-      .add("--magnitude-bin", of.magnitude_bin,
-           "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
-           "upwards; 0: none, magnitudes are continuous. Without it " +
-               otherwise,
-           zero_or_more());
+      .call<std::string>(
+          "--magnitude-bin", read,
+          "Width of the bins to whose centres magnitudes are rounded, halves upwards; centres are "
+          "multiples of the width unless another one is given, as in 0.1:0.05; 0: none, magnitudes "
+          "are continuous. Without it " +
+              otherwise,
+          kind("WIDTH[:CENTRE]"), shown(""));
 }
 
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {

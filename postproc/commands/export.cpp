@@ -243,7 +243,7 @@ class Export : public CatalogueAnalysis {
         out.write(block);
         block.clear();
       };
-      const double bin = catalogues.magnitude_bin.value_or(0.0);
+      const MagnitudeBins bins = catalogues.magnitude_bins.value_or(MagnitudeBins());
       const auto use = [&](const ReadEvent &event) {
         if (const Earthquake *const quake = event.earthquake) {
           const std::string date = utc_text(quake->time * 86400.0, 0, format->last_year);
@@ -251,7 +251,7 @@ class Export : public CatalogueAnalysis {
             throw std::runtime_error(fmt::format(
                 "{}: event {} is outside the years 1700 to {} that this --format can have", path,
                 event.id, format->last_year));
-          return write({event, number, date, binned(quake->magnitude, bin), quake->longitude,
+          return write({event, number, date, bins.binned(quake->magnitude), quake->longitude,
                         quake->latitude, quake->depth, unknown});
         }
         const double quantity = magnitudes_.quantity(event, info);
@@ -265,7 +265,7 @@ class Export : public CatalogueAnalysis {
               fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
                           "expected another --time-unit or --start-date",
                           path, event.id, event.t_start, format->last_year));
-        write({event, number, date, binned(scale.of(quantity), bin),
+        write({event, number, date, bins.binned(scale.of(quantity)),
                info.number(event, "x_centroid") * per_length, 0.0, 0.0, of_model});
       };
       const EventTable table = read_events(path, one, use, begin);

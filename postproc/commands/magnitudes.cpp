@@ -49,12 +49,12 @@ class Magnitudes : public Statistic {
   /// Magnitudes of one catalogue, in the order of its events.
   std::vector<double> magnitudes_in(const EventTable &table, const MagnitudeScale &scale) const {
     std::vector<double> out;
-    const double bin = table.bins.width;
+    const MagnitudeBins &bins = table.bins;
     const auto add = [&](double quantity) {
-      if (quantity > 0.0) out.push_back(binned(scale.of(quantity), bin));
+      if (quantity > 0.0) out.push_back(bins.binned(scale.of(quantity)));
     };
     if (table.earthquakes())
-      for (const double magnitude : table.magnitudes) out.push_back(binned(magnitude, bin));
+      for (const double magnitude : table.magnitudes) out.push_back(bins.binned(magnitude));
     else if (magnitudes_.of_moment())
       for (const EventRow &event : table.details) add(magnitudes_.quantity(event, table.info));
     else
@@ -88,16 +88,13 @@ class Magnitudes : public Statistic {
       // The catalogue has nothing of the part of a bin that is below it; of earthquakes the reader
       // has seen to this.
       if (!table.earthquakes() && smallest.size == table.complete_from)
-        curve.completeness += 0.5 * curve.bin;
+        curve.completeness += 0.5 * curve.bins.width;
     } else {
       throw std::invalid_argument("--complete-from " + text::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");
     }
     // Rounds the completeness up to the centre of a bin, which b_value() requires.
-    const double bin = curve.bin;
-    if (bin > 0.0)
-      curve.completeness =
-          nearest_decimal(bin * std::ceil(curve.completeness / bin - magnitude_tolerance));
+    curve.completeness = curve.bins.first_from(curve.completeness);
   }
 
   /// Where the magnitudes come from, for readers.
@@ -126,14 +123,17 @@ class Magnitudes : public Statistic {
                                        ? MagnitudeScale()
                                        : magnitudes_.scale(table.path, table.info);
       curve.magnitudes = magnitudes_in(table, scale);
-      curve.bin = table.bins.width;
+      curve.bins = curve.counting = table.bins;
       // Fine bins that were only recognized have too few events each to show where they are most.
-      const bool given = catalogues.magnitude_bin.value_or(0.0) > 0.0;
-      curve.counting = given ? curve.bin : std::max(curve.bin, 0.1);
+      double &width = curve.counting.width;
+      if (!(width > 0.0))
+        width = 0.1;
+      else if (!catalogues.magnitude_bins)
+        width = MagnitudeBins{width}.first_from(0.1);
       curve.curvature = maximum_curvature(curve.magnitudes, curve.counting);
       set_completeness(curve, table, scale);
-      curve.b = b_value(curve.magnitudes, curve.completeness, curve.bin);
-      curve.positive = b_positive(curve.magnitudes, curve.completeness, curve.bin);
+      curve.b = b_value(curve.magnitudes, curve.completeness, curve.bins.width);
+      curve.positive = b_positive(curve.magnitudes, curve.completeness, curve.bins.width);
       curves.push_back(std::move(curve));
     }
     Results results;

@@ -32,9 +32,10 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
   table.data("label", &MagnitudeCurve::label);
   table.data("degenerate", [](auto &c) { return c.b.why; });
   table.column("degenerate_positive", "degenerate", [](auto &c) { return c.positive.why; });
-  std::vector<double> bins;
+  std::vector<std::string> bins;
   for (const MagnitudeCurve &curve : curves)
-    if (std::find(bins.begin(), bins.end(), curve.bin) == bins.end()) bins.push_back(curve.bin);
+    if (std::string one = text(curve.bins); std::find(bins.begin(), bins.end(), one) == bins.end())
+      bins.push_back(std::move(one));
   table.comment(fmt::format("{}, bins of {} (0: none)", formula, fmt::join(bins, ", ")));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
@@ -59,18 +60,18 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
     }
     // The cumulative number counts from the lower edge of the bin, half a width below its centre.
     plot.add(Curves::data, fmt::format("table using (row({0})-{1}):5 with points lt {0}", number,
-                                       text::number(0.5 * curve.counting)));
+                                       text::number(0.5 * curve.counting.width)));
     plot.add(Curves::data,
              fmt::format("table using ($4 > 0 ? row({0}) : NaN):4 with points lt {0} ps 0.45*point",
                          number));
-    margin = std::max(margin, curve.counting);
+    margin = std::max(margin, curve.counting.width);
     const BValue &b = curve.b;
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events){}", curve.label, curve.magnitudes.size(),
                          b.degenerate ? "" : ": b = " + with_error(b.b, b.error, " ± ")));
     if (b.degenerate) continue;
     // The law, too, counts from the lower edge of its first bin.
-    const double lowest = curve.completeness - 0.5 * curve.bin;
+    const double lowest = curve.completeness - 0.5 * curve.bins.width;
     plot.add_law(
         lowest, *std::max_element(curve.magnitudes.begin(), curve.magnitudes.end()),
         fmt::format("{}*10**(-({})*($1-({})))", b.n, text::number(b.b), text::number(lowest)),

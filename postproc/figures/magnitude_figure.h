@@ -20,8 +20,8 @@ struct MagnitudeCurve {
   std::string completeness_text;  ///< where the completeness comes from
   double curvature = 0.0;         ///< magnitude of completeness by maximum curvature
   BValue b, positive;
-  double bin = 0.0;       ///< width of the bins of the magnitudes; 0: none
-  double counting = 0.1;  ///< width of the bins in which they are counted and drawn, > 0
+  MagnitudeBins bins;      ///< of the magnitudes
+  MagnitudeBins counting;  ///< those in which they are counted and drawn, of a width > 0
 };
 
 /// Magnitudes of completeness and b-values, a row per catalogue.

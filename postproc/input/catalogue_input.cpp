@@ -116,8 +116,7 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
   if (!options.where.empty())
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --where");
-  const EarthquakeList list =
-      read_earthquakes(all_of(bytes, format), format, path, options.lenient);
+  EarthquakeList list = read_earthquakes(all_of(bytes, format), format, path, options.lenient);
   EventTable table;
   table.path = path;
   table.info.model = seismicity;
@@ -129,7 +128,8 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
   }
   begin(table);
   std::int64_t elsewhere = 0;
-  for (const Earthquake &one : list.events) {
+  for (Earthquake &one : list.events) {
+    one.magnitude = as_typed(one.magnitude);
     if (!table.region.empty() && !parse_region(table.region).contains(one)) {
       ++elsewhere;
       continue;
@@ -145,9 +145,9 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
       table.complete_from = event.size;
   }
   table.bins = recognized_bins(table.magnitudes);
-  table.bins_given = options.magnitude_bin.has_value();
+  table.bins_given = options.magnitude_bins.has_value();
   const double of_file = table.bins.width;
-  if (table.bins_given) table.bins.width = *options.magnitude_bin;
+  if (table.bins_given) table.bins = *options.magnitude_bins;
   table.complete_from = std::max(table.complete_from, options.min_size);
   // Of a bin that is wider than those of the file, the part below the smallest magnitude is empty.
   if (const double wider = table.bins.width - of_file; wider > 0.0 && table.complete_from > 0.0)
@@ -181,7 +181,7 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
-  if (options.bins_for_models) table.bins.width = options.magnitude_bin.value_or(0.0);
+  if (options.bins_for_models) table.bins = options.magnitude_bins.value_or(MagnitudeBins());
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
   EventConditions where(options.where, table.info, path);
   table.complete_from = std::max(table.complete_from, where.least_size());
@@ -321,7 +321,7 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
   if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
     throw std::invalid_argument(
         "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
-  if (quakes == 0 && options.magnitude_bin && !options.bins_for_models)
+  if (quakes == 0 && options.magnitude_bins && !options.bins_for_models)
     throw std::invalid_argument("--magnitude-bin, but no catalogue is of earthquakes");
   if (quakes == 0 && !options.regions.empty())
     throw std::invalid_argument("--region, but no catalogue is of earthquakes");

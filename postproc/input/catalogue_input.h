@@ -35,9 +35,9 @@ struct CatalogueOptions {
   /// Whether times, from_time and to_time included, are displacements of the driving plate: model
   /// time times driving velocity.
   bool displacement = false;
-  /// Width of the bins of magnitudes, 0: none; without it those that are recognized.
-  std::optional<double> magnitude_bin;
-  bool bins_for_models = false;  ///< whether magnitude_bin is for models as well
+  /// Bins of magnitudes, of width 0: none; without it those that are recognized.
+  std::optional<MagnitudeBins> magnitude_bins;
+  bool bins_for_models = false;  ///< whether magnitude_bins are for models as well
 };
 
 /// An event as it is read.

@@ -54,19 +54,24 @@ std::vector<std::string> texts(const Threshold &threshold, const std::vector<Eve
   return lines;
 }
 
+std::string text(const MagnitudeBins &bins) {
+  return bins.offset > 0.0 ? fmt::format("{} around {} + n {}", bins.width, bins.offset, bins.width)
+                           : fmt::format("{}", bins.width);
+}
+
 std::vector<std::string> bin_notes(const std::vector<EventTable> &tables) {
   std::vector<std::string> notes;
   for (const EventTable &table : tables) {
-    const auto &[width, share, wider, share_of_wider] = table.bins;
+    const auto &[width, offset, share, wider, share_of_wider] = table.bins;
     std::string note;
     if (table.bins_given && table.earthquakes() && width > 0.0)
-      note = fmt::format("magnitudes in bins of {}, as given", width);
+      note = fmt::format("magnitudes in bins of {}, as given", text(table.bins));
     else if (!table.bins_given && width > 0.0)
-      note = fmt::format(
-          "magnitudes in bins of {}, of which {}", width,
-          share == 1.0
-              ? "all are multiples"
-              : fmt::format("{:.0f} % are multiples; the others are rounded", 100.0 * share));
+      note = fmt::format("magnitudes in bins of {}, of which {}", text(table.bins),
+                         share == 1.0
+                             ? fmt::format("all are {}", offset > 0.0 ? "centres" : "multiples")
+                             : fmt::format("{:.0f} % are {}; the others are rounded", 100.0 * share,
+                                           offset > 0.0 ? "centres" : "multiples"));
     if (!table.bins_given && wider > 0.0)
       note += fmt::format(
           "{}{:.0f} % of the magnitudes are multiples of {}, --magnitude-bin {} "

@@ -27,6 +27,8 @@ const char *model_name(std::string_view model);
 
 /// Describes a smallest size, as in "0.01, completeness in the header of x.csv".
 std::string text(const SmallestSize &smallest);
+/// "0.1", or with an offset "0.1 around 0.05 + n 0.1"
+std::string text(const MagnitudeBins &bins);
 /// Describes the smallest sizes of some catalogues, a line for each different one.
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables);
 /// States the bins of the magnitudes of earthquakes, a line for each of the tables that have them.

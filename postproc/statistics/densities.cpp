@@ -26,14 +26,15 @@ SizeDensity size_density(const EventTable &table, const DensitySettings &setting
   out.largest = *std::max_element(sizes.begin(), sizes.end());
   if (const double step = table.size_step(); step > 0.0) {
     for (std::size_t i = 0; i < sizes.size(); ++i)
-      sizes[i] = size_of_magnitude(binned(table.magnitudes[i], table.bins.width));
+      sizes[i] = size_of_magnitude(table.bins.binned(table.magnitudes[i]));
+    const double unit = table.size_unit();
     const double smallest = std::max(least, *std::min_element(sizes.begin(), sizes.end()));
-    const double first = std::ceil(std::log(smallest) / step - magnitude_tolerance);
-    const double last = std::floor(std::log(settings.upto) / step + magnitude_tolerance);
-    const double edge = std::exp((first - 0.5) * step);
+    const double first = std::ceil(std::log(smallest / unit) / step - magnitude_tolerance);
+    const double last = std::floor(std::log(settings.upto / unit) / step + magnitude_tolerance);
+    const double edge = unit * std::exp((first - 0.5) * step);
     const double together = std::max(1.0, std::round(std::log(settings.factor) / step));
-    out.bins =
-        log_histogram(sizes, std::exp(together * step), edge, std::exp((last + 0.5) * step), edge);
+    out.bins = log_histogram(sizes, std::exp(together * step), edge,
+                             unit * std::exp((last + 0.5) * step), edge);
   } else {
     out.bins = log_histogram(sizes, settings.factor, least, settings.upto);
   }

@@ -72,6 +72,8 @@ struct EventTable {
   double size_step() const {
     return bins.width >= 1e-4 ? std::log(size_of_magnitude(bins.width)) : 0.0;
   }
+  /// Size whose logarithm is that of the centre of a bin.
+  double size_unit() const { return size_of_magnitude(bins.offset); }
   /// Unit of the times: "model time" or "days".
   const char *time_unit() const { return earthquakes() ? "days" : "model time"; }
 

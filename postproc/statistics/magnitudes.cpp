@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "files/text.h"
 #include "samples.h"
@@ -46,6 +48,50 @@ std::vector<double> complete(const std::vector<double> &magnitudes, double compl
   return kept;
 }
 
+constexpr double most_in_bins = 0.95;  // of the magnitudes, for bins to be recognized
+constexpr double least_width = 0.001;  // of bins that are recognized
+
+// The widest bins that hold most of 20 or more magnitudes, of which most are multiples of a unit.
+std::optional<MagnitudeBins> widest_bins(const std::vector<double> &magnitudes, double unit) {
+  if (magnitudes.size() < 20) return {};
+  std::map<std::int64_t, std::int64_t> counts;
+  for (const double m : magnitudes)
+    if (MagnitudeBins{unit}.has_centre(m)) ++counts[std::llround(m / unit)];
+  std::vector<std::pair<std::int64_t, std::int64_t>> often(counts.begin(), counts.end());
+  std::stable_sort(often.begin(), often.end(),
+                   [](auto &a, auto &b) { return a.second > b.second; });
+  const auto n = static_cast<double>(magnitudes.size());
+  std::int64_t no_multiples = static_cast<std::int64_t>(magnitudes.size());
+  for (const auto &[value, count] : often) no_multiples -= count;
+  for (auto step = std::llround(1.0 / unit); step > 1 && step * unit > 0.999 * least_width; --step)
+    // The most frequent magnitude may be one of the few others, the next one hardly.
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, often.size()); ++k) {
+      std::int64_t others = no_multiples, in = 0, values = 0;
+      // The magnitudes in bins several times as wide, by the number of times and the bin's offset.
+      std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> in_wider;
+      for (const auto &[value, count] : often) {
+        if (const std::int64_t from = value - often[k].first; from % step == 0) {
+          in += count;
+          ++values;
+          for (const std::int64_t times : {2, 3, 5, 7})
+            in_wider[{times, (from / step % times + times) % times}] += count;
+        } else if (static_cast<double>(others += count) > (1.0 - most_in_bins) * n) {
+          break;
+        }
+      }
+      if (static_cast<double>(others) > (1.0 - most_in_bins) * n) continue;
+      std::int64_t wider = 0;
+      for (const auto &[bins, count] : in_wider) wider = std::max(wider, count);
+      const std::int64_t offset = (often[k].first % step + step) % step;
+      // Two values differ by many steps. Of three or more, hardly any other is common to all.
+      const bool usual = (step == 2 || step == 5 || step == 10) && offset == 0;
+      if (values < (usual ? 2 : 3) || (others > 0 && in - wider < 3 * others)) continue;
+      return MagnitudeBins{nearest_decimal(static_cast<double>(step) * unit),
+                           nearest_decimal(static_cast<double>(offset) * unit)};
+    }
+  return {};
+}
+
 }  // namespace
 
 double MagnitudeScale::of(double size) const { return slope * std::log10(size) + constant; }
@@ -54,32 +100,47 @@ double size_of_magnitude(double magnitude) { return std::pow(10.0, 1.5 * magnitu
 
 double magnitude_of_size(double size) { return std::log10(size) / 1.5; }
 
-double binned(double magnitude, double width) {
-  return width > 0.0 ? nearest_decimal(bin_of(magnitude, width) * width) : magnitude;
+double as_typed(double magnitude) {
+  const double typed = std::round(magnitude * 1e3) / 1e3 + 0.0;  // -0 becomes 0
+  return std::fabs(magnitude - typed) < magnitude_tolerance ? typed : magnitude;
+}
+
+double MagnitudeBins::binned(double magnitude) const {
+  if (!(width > 0.0)) return magnitude;
+  return nearest_decimal(bin_of(magnitude - offset, width) * width + offset);
+}
+
+double MagnitudeBins::first_from(double limit) const {
+  if (!(width > 0.0)) return limit;
+  const double bin = std::ceil((limit - offset) / width - magnitude_tolerance);
+  return nearest_decimal(bin * width + offset);
 }
 
 MagnitudeBins recognized_bins(const std::vector<double> &magnitudes) {
   const auto n = static_cast<double>(magnitudes.size());
-  const auto share = [&](double width) {
-    const auto of_bins = [width](double m) { return std::fabs(m - binned(m, width)) < 1e-6; };
-    return static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), of_bins)) / n;
+  const auto share = [&](const MagnitudeBins &of) {
+    const auto is_centre = [&](double m) { return of.has_centre(m); };
+    return static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), is_centre)) / n;
   };
   MagnitudeBins bins;
   if (magnitudes.empty()) return bins;
-  const double beyond_chance = std::max(0.25, 0.1 + 1.5 / std::sqrt(n));
-  for (const double width : {0.1, 0.01, 0.001}) {
-    bins.share = share(width);
-    if (bins.share < 0.95) {
-      if (bins.wider > 0.0 || bins.share <= beyond_chance) continue;
-      bins.wider = width;
-      bins.share_of_wider = bins.share;
-      continue;
+  for (const double unit : {0.1, 0.01, 0.001, 1e-4}) {
+    bins.share = share({unit});
+    if (bins.share < most_in_bins) continue;
+    if (unit >= least_width) bins.width = unit;
+    if (const auto wide = widest_bins(magnitudes, unit)) {
+      bins = *wide;
+      bins.share = share(bins);
     }
-    bins.width = width;
-    if (bins.share == 1.0 && n >= 20.0)
-      for (const double times : {2.0, 5.0, 10.0})
-        if (const double several = nearest_decimal(times * width); share(several) == 1.0)
-          bins.width = several;
+    break;
+  }
+  for (const double wider : {0.1, 0.01, 0.001}) {
+    const double times = wider / bins.width;
+    if (bins.width > 0.0 && (times < 4.5 || !MagnitudeBins{bins.width}.has_centre(wider))) continue;
+    const double by_chance = std::max(0.1, 1.0 / times), found = share({wider});
+    if (found <= std::max(0.25, by_chance + 1.5 / std::sqrt(n))) continue;
+    bins.wider = wider;
+    bins.share_of_wider = found;
     break;
   }
   return bins;
@@ -97,14 +158,16 @@ BValue b_positive(const std::vector<double> &magnitudes, double completeness, do
   return estimate(up, width, width, "positive differences of magnitudes");
 }
 
-double maximum_curvature(const std::vector<double> &magnitudes, double width) {
-  const std::vector<MagnitudeCount> counts = magnitude_counts(magnitudes, width);
+double maximum_curvature(const std::vector<double> &magnitudes, const MagnitudeBins &bins) {
+  const std::vector<MagnitudeCount> counts = magnitude_counts(magnitudes, bins);
   const auto fullest = std::max_element(counts.begin(), counts.end(),
                                         [](auto &a, auto &b) { return a.count < b.count; });
   return fullest == counts.end() ? NAN : nearest_decimal(fullest->magnitude + 0.2);
 }
 
-std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width) {
+std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes,
+                                             const MagnitudeBins &bins) {
+  const double width = bins.width;
   std::map<std::int64_t, std::int64_t> counts;
   constexpr double most = 1e5;
   const auto [low, high] = std::minmax_element(magnitudes.begin(), magnitudes.end());
@@ -114,14 +177,15 @@ std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitud
                                 text::number(*high) + " in bins of " + text::number(width) +
                                 ", expected fewer than 1e5 bins: a smaller --magnitude-slope or "
                                 "wider bins");
-  for (const double m : magnitudes) ++counts[static_cast<std::int64_t>(bin_of(m, width))];
+  for (const double m : magnitudes)
+    ++counts[static_cast<std::int64_t>(bin_of(m - bins.offset, width))];
   std::vector<MagnitudeCount> out;
   if (counts.empty()) return out;
   auto rest = static_cast<std::int64_t>(magnitudes.size());
   for (std::int64_t bin = counts.begin()->first; bin <= counts.rbegin()->first; ++bin) {
     const auto found = counts.find(bin);
     const std::int64_t count = found == counts.end() ? 0 : found->second;
-    out.push_back({nearest_decimal(static_cast<double>(bin) * width), count, rest});
+    out.push_back({nearest_decimal(static_cast<double>(bin) * width + bins.offset), count, rest});
     rest -= count;
   }
   return out;

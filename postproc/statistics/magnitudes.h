@@ -34,14 +34,18 @@ double size_of_magnitude(double magnitude);
 double magnitude_of_size(double size);
 
 /// Magnitudes are decimal numbers, which binary ones only approximate: 0.35 / 0.1 is
-/// 3.4999999999999996. Hence this tolerance, in magnitudes at limits and in widths at the edges of
-/// bins.
-constexpr double magnitude_tolerance = 1e-9;
+/// 3.4999999999999996, and 2.3 in single precision is 2.2999999523. Hence this tolerance, in
+/// magnitudes at limits and where bins are recognized, in widths at the edges of bins.
+constexpr double magnitude_tolerance = 1e-6;
 
 /// Whether a magnitude is at or above a limit, to magnitude_tolerance.
 inline bool reaches(double magnitude, double limit) {
   return magnitude >= limit - magnitude_tolerance;
 }
+
+/// The magnitude that was typed: the number of up to three decimals that is as near as
+/// magnitude_tolerance, as it is after single precision, or else the magnitude itself.
+double as_typed(double magnitude);
 
 /// Number of the bin of a magnitude: of the nearest multiple of width > 0, halves upwards.
 inline double bin_of(double magnitude, double width) {
@@ -52,22 +56,31 @@ inline double nearest_decimal(double number) {
   return std::round(number * 1e9) / 1e9 + 0.0;  // -0 becomes 0
 }
 
-/// Rounds to the nearest multiple of width, halves upwards; width 0: leaves the magnitude as it is.
-double binned(double magnitude, double width);
-
-/// Bins to whose centres magnitudes were rounded before they were written.
+/// Bins to whose centres, offset + n width, magnitudes were rounded before they were written.
 struct MagnitudeBins {
-  double width = 0.0;  ///< 0: none, magnitudes are continuous
-  double share = 0.0;  ///< of the magnitudes that are multiples of width
+  double width = 0.0;   ///< 0: none, magnitudes are continuous
+  double offset = 0.0;  ///< from 0 up to the width
+  double share = 0.0;   ///< of the magnitudes that are centres
   /// A width of which many more magnitudes are multiples than by chance, as agencies change their
   /// practice, and their share; 0: there is none.
   double wider = 0.0, share_of_wider = 0.0;
+
+  bool has_centre(double magnitude) const {
+    return std::fabs(magnitude - binned(magnitude)) < magnitude_tolerance;
+  }
+  /// Rounds to the nearest centre, halves upwards; width 0: leaves the magnitude as it is.
+  double binned(double magnitude) const;
+  /// The first centre that a limit leaves in.
+  double first_from(double limit) const;
 };
 
-/// Recognizes the bins of a catalogue †: the widest of 0.1, 0.01 and 0.001 of which at least 95 %
-/// of the magnitudes are multiples, or 10, 5 or 2 times that width if all of 20 or more are
-/// multiples of it. `wider` is the widest of the three of which more than a quarter are, and five
-/// standard deviations more than the tenth that are by chance.
+/// Recognizes the bins of a catalogue †. Their step is the widest of 0.1, 0.01 and 0.001 of which
+/// at least 95 % of the magnitudes are multiples, or, of 20 magnitudes or more, the widest step up
+/// to 1 of which 95 % differ by multiples, with any offset. If not all do, those that do have to be
+/// three times as many as the others even without those in any bins 2, 3, 5 or 7 times as wide, so
+/// that neither a change of practice nor a narrow range is taken for bins. `wider` is 0.1 or 0.01
+/// if more than a quarter of the magnitudes are its multiples, and half as many again, and five
+/// standard deviations more, than by chance.
 MagnitudeBins recognized_bins(const std::vector<double> &magnitudes);
 
 /// b-value of the Gutenberg-Richter law N(M) ~ 10^(-b M) for M >= completeness.
@@ -95,9 +108,9 @@ BValue b_positive(const std::vector<double> &magnitudes, double completeness, do
 
 /// Magnitude of completeness by maximum curvature: centre of the fullest bin (the lowest of equal
 /// ones) plus 0.2, after Woessner & Wiemer.
-/// \param width of the bins, > 0
+/// \param bins of a width > 0
 /// \return NaN without magnitudes
-double maximum_curvature(const std::vector<double> &magnitudes, double width);
+double maximum_curvature(const std::vector<double> &magnitudes, const MagnitudeBins &bins);
 
 /// Number of events in the bin centred at a magnitude, and in it and all bins above.
 struct MagnitudeCount {
@@ -106,7 +119,8 @@ struct MagnitudeCount {
 };
 /// Counts the magnitudes in bins of a width > 0, from the first to the last bin with an event.
 /// \throws std::invalid_argument if that needs 1e5 bins or more
-std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width);
+std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes,
+                                             const MagnitudeBins &bins);
 
 }  // namespace LSM::postproc
 

@@ -8,12 +8,22 @@
 
 namespace LSM::postproc {
 
-PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least,
-                     double step) {
-  if (least < range.hi) return fit_power_law(sorted, std::max(range.lo, least), range.hi, step);
+std::vector<double> sorted_sizes(const EventTable &table) {
+  std::vector<double> sorted = column(table.events, &Event::size);
+  std::sort(sorted.begin(), sorted.end());
+  for (double &size : sorted) size /= table.size_unit();
+  return sorted;
+}
+
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range,
+                     const EventTable &table) {
+  const double least = table.complete_from, unit = table.size_unit();
+  if (least < range.hi)
+    return fit_power_law(sorted, std::max(range.lo, least) / unit, range.hi / unit,
+                         table.size_step());
   PowerLawFit none;
-  none.lo = range.lo;
-  none.hi = range.hi;
+  none.lo = range.lo / unit;
+  none.hi = range.hi / unit;
   return without_numbers(none, least > 0.0
                                    ? fmt::format("the catalogue only has events from {:.4g}", least)
                                    : "no events");
@@ -23,13 +33,12 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
                                const SizeFitSettings &settings) {
   std::vector<SizeFit> fits;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    std::vector<double> sorted = column(tables[i].events, &Event::size);
-    std::sort(sorted.begin(), sorted.end());
-    const double least = tables[i].complete_from, step = tables[i].size_step();
+    const std::vector<double> sorted = sorted_sizes(tables[i]);
+    const double unit = tables[i].size_unit();
     std::vector<Range> ranges = settings.ranges;
     if (ranges.empty()) ranges.push_back(paper_range(settings.threshold.of(tables[i]).size));
     for (const Range &range : ranges) {
-      const PowerLawFit law = fit_from(sorted, range, least, step);
+      const PowerLawFit law = fit_from(sorted, range, tables[i]);
       SizeFit fit;
       fit.label = tables[i].label;
       fit.model = tables[i].info.model;
@@ -39,6 +48,16 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
       if (!law.degenerate && settings.replicas > 0)
         fit.p = share_of(p_value(law, sorted, settings.replicas, settings.seed), settings.replicas);
       if (!law.degenerate && settings.compare) fit.comparisons = compare(sorted, law);
+      fit.fit.lo *= unit;
+      fit.fit.hi *= unit;
+      for (Comparison &rival : fit.comparisons)
+        for (auto &[name, value] : rival.parameters)
+          if (name == "mu")
+            value += std::log(unit);
+          else if (name == "cut-off")
+            value *= unit;
+          else if (name == "rate")
+            value /= unit;
       fits.push_back(std::move(fit));
     }
   }

@@ -38,13 +38,17 @@ struct SizeFit {
 /// Three decades from a smallest size on, the extent of the power law in the paper.
 inline Range paper_range(double smallest) { return {smallest, 1000.0 * smallest}; }
 
-/// Fits the exponent on a range without the sizes below `least`, where events are missing: their
-/// absence would look like a flatter law.
-/// \param sorted sizes in ascending order
-/// \param step of their logarithms, see power_law.h
+/// Sizes in ascending order and in units of table.size_unit(), so that the logarithms of those in
+/// bins are multiples of table.size_step(), as power_law.h needs them.
+std::vector<double> sorted_sizes(const EventTable &table);
+
+/// Fits the exponent on a range without the sizes below table.complete_from, where events are
+/// missing: their absence would look like a flatter law.
+/// \param sorted those of sorted_sizes()
+/// \return the fit to these, in their units
 /// \throws std::invalid_argument for impossible settings
-PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least,
-                     double step);
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range,
+                     const EventTable &table);
 
 /// Fits each catalogue on each range.
 /// \throws std::invalid_argument for impossible settings

@@ -52,17 +52,17 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
                                              const std::vector<double> &thresholds) {
   std::vector<ThresholdResult> results;
   if (thresholds.empty()) return results;
-  std::vector<double> sizes = column(table.events, &Event::size);
-  std::sort(sizes.begin(), sizes.end());
+  const std::vector<double> sizes = sorted_sizes(table);
   IntervalSettings times;
   times.thresholds = thresholds;
   times.replicas = 0;
   std::vector<IntervalCurve> curves = interval_curves({table}, times);
-  for (std::size_t k = 0; k < thresholds.size(); ++k)
-    results.push_back(
-        {thresholds[k],
-         fit_from(sizes, paper_range(thresholds[k]), table.complete_from, table.size_step()),
-         std::move(curves[k])});
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    PowerLawFit law = fit_from(sizes, paper_range(thresholds[k]), table);
+    law.lo *= table.size_unit();
+    law.hi *= table.size_unit();
+    results.push_back({thresholds[k], std::move(law), std::move(curves[k])});
+  }
   return results;
 }
 

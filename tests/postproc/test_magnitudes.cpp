@@ -46,10 +46,10 @@ TEST(Magnitudes, OfSizes) {
   const MagnitudeScale usual, plain{1.0, 4.5};
   EXPECT_DOUBLE_EQ(usual.of(1000.0), 2.0);
   EXPECT_DOUBLE_EQ(plain.of(1000.0), 7.5);
-  EXPECT_DOUBLE_EQ(binned(0.249, 0.1), 0.2);
-  EXPECT_DOUBLE_EQ(binned(0.25, 0.5), 0.5);
-  EXPECT_DOUBLE_EQ(binned(-0.25, 0.5), 0.0);
-  EXPECT_EQ(binned(0.123, 0.0), 0.123);
+  EXPECT_DOUBLE_EQ(MagnitudeBins{0.1}.binned(0.249), 0.2);
+  EXPECT_DOUBLE_EQ(MagnitudeBins{0.5}.binned(0.25), 0.5);
+  EXPECT_DOUBLE_EQ(MagnitudeBins{0.5}.binned(-0.25), 0.0);
+  EXPECT_EQ(MagnitudeBins{0.0}.binned(0.123), 0.123);
 }
 
 // A half is a half, whatever the binary approximations of its decimals.
@@ -61,10 +61,32 @@ TEST(Magnitudes, HalvesGoUp) {
       if ((2 * hundredths + width) % (2 * width) < 0) --bin;
       return bin * width / 100.0;
     };
-    EXPECT_EQ(binned(m, 0.1), nearest(10)) << m;
-    EXPECT_EQ(binned(m, 0.2), nearest(20)) << m;
-    EXPECT_EQ(binned(m, 0.01), m);
+    EXPECT_EQ(MagnitudeBins{0.1}.binned(m), nearest(10)) << m;
+    EXPECT_EQ(MagnitudeBins{0.2}.binned(m), nearest(20)) << m;
+    EXPECT_EQ(MagnitudeBins{0.01}.binned(m), m);
   }
+}
+
+// Of single precision, decimals of up to three places are left; others are as they are.
+TEST(Magnitudes, AreAsTheyWereTyped) {
+  for (int k = -3000; k < 10000; ++k) {
+    const double m = k / 1000.0;
+    EXPECT_EQ(as_typed(static_cast<double>(static_cast<float>(m))), m);
+    EXPECT_EQ(as_typed(m), m);
+  }
+  EXPECT_EQ(as_typed(2.3456789), 2.3456789);
+  EXPECT_EQ(as_typed(2.30001), 2.30001);
+}
+
+TEST(Magnitudes, BinsBeginWhereALimitLeavesThem) {
+  const MagnitudeBins bins{0.1, 0.05};
+  EXPECT_EQ(bins.first_from(4.05), 4.05);
+  EXPECT_EQ(bins.first_from(4.06), 4.15);
+  EXPECT_EQ(bins.first_from(-4.06), -4.05);
+  EXPECT_EQ(bins.binned(4.1), 4.15);
+  EXPECT_EQ(bins.binned(4.0999), 4.05);
+  EXPECT_EQ(maximum_curvature({4.05, 4.15, 4.15, 4.25}, bins), 4.35);
+  EXPECT_EQ(magnitude_counts({4.05, 4.15, 4.15, 4.35}, bins).back().magnitude, 4.35);
 }
 
 TEST(Magnitudes, SizesKeepTheirOrder) {
@@ -81,7 +103,7 @@ TEST(Magnitudes, BinsAreRecognized) {
   const std::vector<double> all = gutenberg_richter(1.0, 2.0, 5000, 5);
   const auto in_bins = [&all](double width, std::size_t n) {
     std::vector<double> out(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
-    for (double &m : out) m = binned(m, width);
+    for (double &m : out) m = MagnitudeBins{width}.binned(m);
     return out;
   };
   for (const double width : {0.001, 0.01, 0.02, 0.1, 0.2, 0.5, 1.0})
@@ -100,7 +122,7 @@ TEST(Magnitudes, BinsAreRecognized) {
   for (const double share : {0.02, 0.1, 0.4, 0.9, 0.99}) {
     std::vector<double> mixed = in_bins(0.01, 5000);
     for (std::size_t i = 0; i < mixed.size(); ++i)
-      if (static_cast<double>(i) < share * 5000.0) mixed[i] = binned(mixed[i], 0.1);
+      if (static_cast<double>(i) < share * 5000.0) mixed[i] = MagnitudeBins{0.1}.binned(mixed[i]);
     const MagnitudeBins found = recognized_bins(mixed);
     const double multiples = share + 0.1 * (1.0 - share);
     EXPECT_EQ(found.width, share > 0.95 ? 0.1 : 0.01) << share;
@@ -110,6 +132,29 @@ TEST(Magnitudes, BinsAreRecognized) {
       EXPECT_NEAR(found.share_of_wider, multiples, 0.02);
     }
   }
+  // Any step and offset, with the last of a share of 95 % off them.
+  for (const std::size_t n : {60u, 5000u})
+    for (const double width : {0.015, 0.03, 0.05, 0.125, 0.1, 0.15, 0.25, 0.3, 0.4, 0.5})
+      for (const double offset : {0.0, 0.2 * width, 0.5 * width}) {
+        std::vector<double> some = in_bins(0.0, n);
+        for (double &m : some) m = MagnitudeBins{width, offset}.binned(m);
+        for (const std::size_t off : {std::size_t{0}, n / 25}) {
+          for (std::size_t i = 0; i < off; ++i)
+            some[i * 25] = 2.0 + 0.1 * static_cast<double>(i % 7);
+          const MagnitudeBins found = recognized_bins(some);
+          EXPECT_NEAR(found.width, width, 1e-12) << n << " " << offset << " " << off;
+          EXPECT_NEAR(found.offset, offset, 1e-12) << n << " " << width << " " << off;
+          EXPECT_EQ(found.wider, 0.0) << n << " " << width << " " << offset;
+        }
+      }
+  // Magnitudes of a narrow range are no bins of their own.
+  std::vector<double> narrow(960, 2.0);
+  narrow.insert(narrow.end(), {2.1, 2.1, 2.2, 2.3, 2.5, 2.7});
+  EXPECT_EQ(recognized_bins(narrow).width, 0.1);
+  EXPECT_EQ(recognized_bins(std::vector<double>(30, 2.3)).width, 0.1);
+  narrow.assign(30, 2.3);
+  narrow.insert(narrow.end(), 5, 2.7);
+  EXPECT_EQ(recognized_bins(narrow).width, 0.1);
   // Numbers in single precision.
   std::vector<double> floats = in_bins(0.1, 200);
   for (double &m : floats) m = static_cast<double>(static_cast<float>(m));
@@ -148,7 +193,7 @@ TEST(BValue, ErrorCoversTheTruth) {
       for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         // Bins centred at multiples of width include values within half a bin.
         std::vector<double> magnitudes = gutenberg_richter(b, 2.0 - 0.5 * width, 300, seed);
-        for (double &m : magnitudes) m = binned(m, width);
+        for (double &m : magnitudes) m = MagnitudeBins{width}.binned(m);
         const BValue result = b_value(magnitudes, 2.0, width);
         ASSERT_EQ(result.n, 300);
         coverage.add(result.b, result.error);
@@ -161,7 +206,7 @@ TEST(BValue, PositiveDifferencesHaveTheSame) {
   Coverage coverage(1.0);
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     std::vector<double> magnitudes = gutenberg_richter(1.0, -0.05, 600, seed);
-    for (double &m : magnitudes) m = binned(m, 0.1);
+    for (double &m : magnitudes) m = MagnitudeBins{0.1}.binned(m);
     const BValue result = b_positive(magnitudes, 0.0, 0.1);
     ASSERT_GT(result.n, 200);
     coverage.add(result.b, result.error);
@@ -203,11 +248,11 @@ TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
   std::vector<double> seen;
   for (const double m : gutenberg_richter(1.0, 0.0, 100000, 11))
     if (random.uniform(0.0, 1.0) < (m - 0.4) / 0.6) seen.push_back(m);
-  EXPECT_NEAR(maximum_curvature(seen, 0.1), 1.0, 0.11);
-  EXPECT_NEAR(b_value(seen, maximum_curvature(seen, 0.1)).b, 1.0, 0.05);
-  EXPECT_TRUE(std::isnan(maximum_curvature({}, 0.1)));
+  EXPECT_NEAR(maximum_curvature(seen, {0.1}), 1.0, 0.11);
+  EXPECT_NEAR(b_value(seen, maximum_curvature(seen, {0.1})).b, 1.0, 0.05);
+  EXPECT_TRUE(std::isnan(maximum_curvature({}, {0.1})));
   // Of two equal maxima the lower magnitude counts.
-  EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, 0.5), 1.2);
+  EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, {0.5}), 1.2);
 }
 
 }  // namespace

@@ -225,6 +225,68 @@ def test_magnitudes_in_tenths_have_the_right_b(postproc, work):
     assert b_values(postproc, "q.csv --magnitude-bin 0")["b"] == pytest.approx(1.127, abs=0.02)
 
 
+@pytest.mark.parametrize("width,offset", [("0.25", "0"), ("0.3", "0"), ("0.15", "0"), ("0.1", "0.05"), ("0.2", "0.1"), ("0.25", "0.125")])
+def test_bins_of_any_step_and_offset(postproc, work, width, offset):
+    """Recognized, or given as they are: bins that begin with a whole one, counted, fitted and drawn about their centres."""
+    magnitudes = [str(Decimal(m) + Decimal(offset)) for m in gutenberg_richter(20000, float(width), least=3 * float(width))]
+    shifted = [str(Decimal(m) - Decimal(offset)) for m in magnitudes]
+    exact = Exact(shifted, width)
+    quakes("q.csv", magnitudes)
+    quakes("plain.csv", shifted)
+    centre = f"{width} around {offset} \\+ n {width}, of which all are centres" if float(offset) else f"{width}, of which all are multiples"
+    run(postproc, "magnitudes q.csv --no-picture -o m").printed("magnitudes in bins of " + centre)
+    (b, n), (positive, n_positive), least = exact.b(min(map(Fraction, shifted)))
+    first = float(least + Fraction(offset))
+    given = f"--magnitude-bin {width}:{float(offset) + 7 * float(width)}"
+    for bins in "", given, f"--complete-from {first - 0.01}", f"--complete-from {first} {given}":
+        found = b_values(postproc, f"q.csv {bins}")
+        assert (found["completeness"], found["n"], found["n_positive"]) == (first, n, n_positive)
+        assert found["b"] == pytest.approx(b, rel=1e-12) and found["b_positive"] == pytest.approx(positive, rel=1e-12)
+    # A power law has no scale: the exponent is that of the magnitudes without the offset, and all that has a unit is shifted.
+    found = {}
+    for name, shift in ("q.csv", float(offset)), ("plain.csv", 0.0):
+        run(postproc, f"fit {name} --range M{first - float(offset) + shift}:M{9 + shift} --replicas 20 -o f --overwrite --json f.json")
+        found[name] = json.loads(Path("f.json").read_text())["fits"][0]
+    fit, plain, unit = found["q.csv"], found["plain.csv"], 10**(1.5 * float(offset))
+    for key in "exponent", "standard_error", "n", "ks", "log_likelihood", "p":
+        assert fit[key] == pytest.approx(plain[key], rel=1e-9), key
+    assert fit["lo"] == pytest.approx(plain["lo"] * unit) and fit["hi"] == pytest.approx(plain["hi"] * unit)
+    for rival, other in zip(fit["comparisons"], plain["comparisons"]):
+        for key, value in rival.get("parameters", {}).items():
+            there = other["parameters"][key]
+            expected = {"mu": there + math.log(unit), "rate": there / unit, "cut-off": there * unit}.get(key, there)
+            assert value == pytest.approx(expected, rel=1e-6), (rival, key)
+    # The line is drawn through the bins.
+    run(postproc, f"histograms q.csv --threshold M{first} --no-picture -o h --overwrite")
+    rows = table("h.csv")
+    assert [int(row["count"]) for row in rows][0] == sum(1 for m in shifted if Fraction(m) == least)
+    assert float(rows[0]["bin_lo"]) == pytest.approx(10**(1.5 * (first - float(width) / 2)))
+    run(postproc, f"export q.csv {given} -o e.csv --overwrite")
+    assert sorted(float(row["magnitude"]) for row in table("e.csv")) == sorted(map(float, magnitudes))
+
+
+def test_single_precision_loses_no_events(postproc, work):
+    magnitudes = gutenberg_richter(3000, 0.1, least=2.3)
+    quakes("typed.csv", magnitudes)
+    quakes("single.csv", [repr(float(np.float32(m))) for m in magnitudes])
+    assert "2.299999952316284" in Path("single.csv").read_text()
+    for limit in ("2.3", "2.4", "2.6", "3.1"):
+        for command in f"count {{}} --size M{limit} --overwrite --json o.json", f"magnitudes {{}} --min-magnitude {limit} --no-picture -o o --overwrite --json o.json":
+            found = []
+            for name in "typed.csv", "single.csv":
+                run(postproc, command.format(name))
+                found.append(Path("o.json").read_text().replace("single", "typed"))
+            assert found[0] == found[1]
+        kept = [m for m in magnitudes if Decimal(m) >= Decimal(limit)]
+        assert json.loads(found[1])["b_values"][0]["n"] == len(kept)
+
+
+@pytest.mark.parametrize("given", ["0:0.05", "0.1:", "0.1:x", ":0.1", "nan", "inf", "0.1:0.05:1", "-0.1:0"])
+def test_bins_that_are_none(postproc, work, given):
+    quakes("q.csv", ["2.0", "2.1"] * 20)
+    refused(postproc, f"magnitudes q.csv -o o --magnitude-bin={given}", f"--magnitude-bin '{given}', expected a width of 0 or more")
+
+
 @pytest.mark.parametrize("width", [0.1, 0.2])
 def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     """1 + b / 1.5, by fit and explore; the law is not rejected."""

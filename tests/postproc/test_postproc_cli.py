@@ -356,7 +356,7 @@ def test_magnitudes(do, no):
     no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
     no("complete-from 'nowhere', expected 'header', 'curvature' or a magnitude", "magnitudes gr.csv -o x --complete-from nowhere")
     no("magnitude-slope: expected a number above 0", "magnitudes gr.csv -o x --magnitude-slope 0")
-    no("magnitude-bin: expected a number of 0 or more, not '-1'", "magnitudes gr.csv -o x --magnitude-bin -1")
+    no("magnitude-bin '-1', expected a width of 0 or more", "magnitudes gr.csv -o x --magnitude-bin -1")
     without_column("gr.csv", "plain.csv")
     no("plain.csv: has no column slip_moment, expected one for --magnitude-of moment",
        "magnitudes plain.csv -o x --magnitude-of moment --complete-from -2")
