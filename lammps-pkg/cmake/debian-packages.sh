@@ -106,5 +106,5 @@ lammps_packages="build-essential cmake ninja-build libopenmpi-dev openmpi-bin li
   gzip xz-utils ca-certificates git"
 plot_packages="gnuplot-nox fonts-dejavu-core"
 postproc_packages="libcli11-dev libfmt-dev nlohmann-json3-dev libgsl-dev libfftw3-dev zlib1g-dev
-  liblzma-dev libjs-dygraphs libpugixml-dev libhowardhinnant-date-dev"
+  liblzma-dev libjs-dygraphs libexpat1-dev libhowardhinnant-date-dev"
 test_packages="libgtest-dev libgmock-dev python3-pytest python3-numpy"

@@ -81,14 +81,35 @@ class AftershockRates : public Statistic {
     return rule;
   }
 
+  /// Why a catalogue has no main shock.
+  static std::string no_main_shock(const EventTable &table, const SequenceRule &rule) {
+    std::int64_t large = 0, early = 0, late = 0;
+    for (const EventSummary &event : table.events) {
+      if (!(event.size >= rule.main_size)) continue;
+      ++large;
+      if (event.t_start - rule.window < table.events.front().t_start)
+        ++early;
+      else if (event.t_end + rule.window > table.events.back().t_start)
+        ++late;
+    }
+    return fmt::format(
+        "{}: no main shock, of which the times before and after have to be in the catalogue: of {} "
+        "of size {} or larger, {} come less than {} {} after the first event, {} less than that "
+        "before the last, and {} with one as large within that time; expected a shorter --window",
+        table.path, large, short_number(rule.main_size), early, short_number(rule.window),
+        table.time_unit(), late, large - early - late);
+  }
+
   Results of(const std::vector<EventTable> &tables) override {
     std::vector<AftershockCurve> curves;
     Results results;
     for (const EventTable &table : tables) {
       try {
-        curves.push_back(
-            {table.label, table.info.model,
-             aftershocks_of(table, rule_for(table), hold_c_, factor_, replicas_, seed_)});
+        const SequenceRule rule = rule_for(table);
+        curves.push_back({table.label, table.info.model,
+                          aftershocks_of(table, rule, hold_c_, factor_, replicas_, seed_)});
+        if (curves.back().aftershocks.sequences.main_shocks == 0)
+          results.warn(no_main_shock(table, rule));
       } catch (const DegenerateData &few) {
         if (tables.size() == 1) throw;
         results.warn(few.what());

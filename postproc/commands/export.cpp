@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include <date/date.h>
 #include <fmt/format.h>
-#include <pugixml.hpp>
 
 #include "command.h"
 #include "event_time.h"
@@ -60,32 +58,24 @@ std::string csep_row(const Exported &e) {
 
 std::string quakeml_event(const Exported &e) {
   const std::string name = fmt::format("smi:local/lsm-fault/{}/{}", e.catalogue, e.event.id);
-  pugi::xml_document document;
-  pugi::xml_node event = document.append_child("event");
-  const auto value = [](pugi::xml_node of, const char *what, const std::string &text) {
-    of.append_child(what).append_child("value").text().set(text.c_str());
+  const auto value = [](const char *what, const auto &number) {
+    return fmt::format("  <{0}>\n   <value>{1}</value>\n  </{0}>\n", what, number);
   };
-  event.append_attribute("publicID") = (name + "/event").c_str();
-  event.append_child("preferredOriginID").text().set((name + "/origin").c_str());
-  event.append_child("preferredMagnitudeID").text().set((name + "/magnitude").c_str());
-  event.append_child("type").text().set("earthquake");
-  pugi::xml_node origin = event.append_child("origin");
-  origin.append_attribute("publicID") = (name + "/origin").c_str();
-  value(origin, "time", e.date + "Z");
   const auto known = [&](const char *what, double number) {
-    if (!std::isnan(number)) value(origin, what, fmt::format("{}", number));
+    return std::isnan(number) ? std::string() : value(what, number);
   };
-  known("longitude", e.longitude);
-  known("latitude", e.latitude);
-  known("depth", 1000.0 * e.depth);
-  pugi::xml_node magnitude = event.append_child("magnitude");
-  magnitude.append_attribute("publicID") = (name + "/magnitude").c_str();
-  value(magnitude, "mag", fmt::format("{}", e.magnitude));
-  if (!e.type.empty()) magnitude.append_child("type").text().set(e.type.c_str());
-  magnitude.append_child("originID").text().set((name + "/origin").c_str());
-  std::ostringstream text;
-  document.save(text, " ", pugi::format_indent | pugi::format_no_declaration);
-  return text.str();
+  return fmt::format(
+      "<event publicID=\"{0}/event\">\n"
+      " <preferredOriginID>{0}/origin</preferredOriginID>\n"
+      " <preferredMagnitudeID>{0}/magnitude</preferredMagnitudeID>\n"
+      " <type>earthquake</type>\n"
+      " <origin publicID=\"{0}/origin\">\n{1} </origin>\n"
+      " <magnitude publicID=\"{0}/magnitude\">\n{2}{3}"
+      "  <originID>{0}/origin</originID>\n </magnitude>\n</event>\n",
+      name,
+      value("time", e.date + "Z") + known("longitude", e.longitude) +
+          known("latitude", e.latitude) + known("depth", 1000.0 * e.depth),
+      value("mag", e.magnitude), e.type.empty() ? "" : "  <type>" + e.type + "</type>\n");
 }
 
 const Format formats[] = {
@@ -125,6 +115,7 @@ class Export : public CatalogueAnalysis {
     json.add_to(command);
     OptionGroup own(command);
     own.remove("--format");  // the format of the output has the name instead
+    add_format(OptionGroup(command, "Catalogues"), catalogues, "--input-format");
     output_.add_to(own, "table");
     OptionGroup group(command, "Conventions †");
     group.add("--format", format_,

@@ -56,34 +56,6 @@ void set_parameter(files::Parameters &parameters, const std::string &key,
 
 namespace {
 
-constexpr std::size_t head_size = 1 << 16;  // bytes that are enough to detect a format
-
-/// Reads all of a file of earthquakes. Its size is limited because a small compressed file may
-/// unpack to anything.
-/// \throws FileError if the file, or a line of it (except in XML and JSON), is longer than any can
-/// be
-std::string all_of(files::Bytes &bytes, const std::string &format) {
-  constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
-  std::string out;
-  std::size_t line = 0;  // where the last line begins
-  for (std::size_t got = 1; got > 0;) {
-    const std::size_t known = out.size();
-    out.resize(known + head_size);
-    got = bytes.read(out.data() + known, head_size);
-    out.resize(known + got);
-    // Searches only the new part, as searching everything each time would take quadratic time.
-    const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
-    if (end != std::string_view::npos) line = known + end + 1;
-    if (format != "quakeml" && format != "geojson" && out.size() - line > longest_line)
-      throw FileError(fmt::format("{}: a line of more than {} bytes, expected events on lines",
-                                  bytes.path(), longest_line));
-    if (out.size() > largest)
-      throw FileError(fmt::format("{}: more than {} bytes, expected several smaller files",
-                                  bytes.path(), largest));
-  }
-  return out;
-}
-
 /// Passes an event to `use` if it starts within [from, to) and is large enough.
 /// \throws FileError if a number is so large that its square could overflow
 /// \return whether it did
@@ -116,7 +88,7 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
   if (!options.where.empty())
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --where");
-  EarthquakeList list = read_earthquakes(all_of(bytes, format), format, path, options.lenient);
+  const EarthquakeList list = read_earthquakes(bytes, format, options.lenient);
   EventTable table;
   table.path = path;
   table.info.model = seismicity;
@@ -128,8 +100,7 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
   }
   begin(table);
   std::int64_t elsewhere = 0;
-  for (Earthquake &one : list.events) {
-    one.magnitude = as_typed(one.magnitude);
+  for (const Earthquake &one : list.events) {
     if (!table.region.empty() && !parse_region(table.region).contains(one)) {
       ++elsewhere;
       continue;
@@ -157,6 +128,9 @@ EventTable read_earthquake_events(files::Bytes &bytes, const std::string &format
   };
   for (const auto &[type, count] : list.others) left_out(count, "of type '" + type + "'");
   left_out(list.without_magnitude, "without magnitude");
+  for (const auto &[text, count] : list.fillers)
+    left_out(count, "of magnitude " + text + ", which stands for none");
+  left_out(list.without_origin, "without origin");
   if (list.not_preferred > 0)
     table.repairs.push_back(
         fmt::format("{}: the preferred origin or magnitude is missing, the first is used: {}", path,

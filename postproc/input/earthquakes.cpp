@@ -5,10 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "event_documents.h"
 #include "files/file_error.h"
 #include "files/input_bytes.h"
 #include "files/text.h"
+#include "quakeml.h"
 #include "text_tables.h"
 
 namespace LSM::postproc {
@@ -46,16 +49,47 @@ std::string_view without_mark(std::string_view content) {
   return content.substr(content.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0);
 }
 
-EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
-                                const std::string &path, bool lenient) {
-  Collector out(path, lenient);
-  content = without_mark(content);
-  if (files::is_utf16(content)) throw FileError(path + files::utf16_text);
-  if (content.substr(0, (1 << 16)).find('\0') != std::string_view::npos)
-    throw FileError(path + ": has bytes of 0, expected text");
+namespace {
+
+/// Reads all of a file of earthquakes. Its size is limited because a small compressed file may
+/// unpack to anything.
+/// \throws FileError if the file, or a line of it (except in JSON), is longer than any can
+/// be
+std::string all_of(files::Bytes &bytes, const std::string &format) {
+  constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
+  std::string out;
+  std::size_t line = 0;  // where the last line begins
+  for (std::size_t got = 1; got > 0;) {
+    const std::size_t known = out.size();
+    out.resize(known + head_size);
+    got = bytes.read(out.data() + known, head_size);
+    out.resize(known + got);
+    // Searches only the new part, as searching everything each time would take quadratic time.
+    const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
+    if (end != std::string_view::npos) line = known + end + 1;
+    if (format != "geojson" && out.size() - line > longest_line)
+      throw FileError(fmt::format("{}: a line of more than {} bytes, expected events on lines",
+                                  bytes.path(), longest_line));
+    if (out.size() > largest)
+      throw FileError(fmt::format("{}: more than {} bytes, expected several smaller files",
+                                  bytes.path(), largest));
+  }
+  return out;
+}
+
+}  // namespace
+
+EarthquakeList read_earthquakes(files::Bytes &bytes, const std::string &format, bool lenient) {
+  Collector out(bytes.path(), lenient);
+  const std::string_view head = without_mark(bytes.peek(head_size));
+  if (files::is_utf16(head)) throw FileError(bytes.path() + files::utf16_text);
+  if (head.find('\0') != std::string_view::npos)
+    throw FileError(bytes.path() + ": has bytes of 0, expected text");
+  const std::string all = format == "quakeml" ? std::string() : all_of(bytes, format);
+  const std::string_view content = without_mark(all);
   if (format == "csv") read_columns(content, out);
   if (format == "geojson") read_geojson(content, out);
-  if (format == "quakeml") read_quakeml(content, out, path);
+  if (format == "quakeml") read_quakeml(bytes, out);
   if (format == "zmap") read_zmap(content, out);
   if (format == "scedc") read_scedc(content, out);
   return out.finish();

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "files/input_bytes.h"
+
 namespace LSM::postproc {
 
 /// One earthquake.
@@ -24,9 +26,11 @@ struct Earthquake {
 
 /// Content of a file of earthquakes.
 struct EarthquakeList {
-  std::vector<Earthquake> events;              ///< in order of time
-  std::map<std::string, std::int64_t> others;  ///< left out, by type: blasts, sonic booms, ...
-  std::int64_t without_magnitude = 0;          ///< earthquakes left out
+  std::vector<Earthquake> events;               ///< in order of time
+  std::map<std::string, std::int64_t> others;   ///< left out, by type: blasts, sonic booms, ...
+  std::int64_t without_magnitude = 0;           ///< earthquakes left out
+  std::map<std::string, std::int64_t> fillers;  ///< left out, by a magnitude that stands for none
+  std::int64_t without_origin = 0;              ///< left out
   std::int64_t not_preferred = 0;  ///< without the preferred origin or magnitude; the first is used
   std::int64_t bad_lines = 0;      ///< skipped (lenient)
   std::string first_problem;       ///< message for the first of them
@@ -52,21 +56,22 @@ constexpr std::string_view earthquake_formats =
 /// A text without its byte order mark.
 std::string_view without_mark(std::string_view content);
 
+constexpr std::size_t head_size = 1 << 16;  ///< bytes that are enough to detect a format
+
 /// Detects the format of a file by its first bytes, after a byte order mark: '# lsm-catalogue'
 /// models, a line of column names (at most one of those needed may be missing) csv, '<' quakeml,
 /// '{' geojson, a first line of data with YYYY/MM/DD, a time and a type scedc, and nine or more
 /// numbers zmap. Everything else is taken for models, whose reader reports what is missing.
 std::string detect_format(std::string_view content);
 
-/// Reads the earthquakes in the text of a file: all events but those whose type says that they are
-/// something else (blasts, explosions, collapses, ...).
+/// Reads the earthquakes in a file: all events but those whose type says that they are something
+/// else (blasts, explosions, collapses, ...). QuakeML is read as a stream; other files may have up
+/// to 1 GiB, because a small compressed file may unpack to anything.
 /// \param format csv, quakeml, geojson, zmap or scedc
-/// \param path for messages, "path:line: what, expected ..."
 /// \param lenient skip and count lines (QuakeML, GeoJSON: events) that cannot be read, and go on if
 /// most events are no earthquakes
 /// \throws FileError
-EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
-                                const std::string &path, bool lenient);
+EarthquakeList read_earthquakes(files::Bytes &bytes, const std::string &format, bool lenient);
 
 }  // namespace LSM::postproc
 

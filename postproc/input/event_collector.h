@@ -18,10 +18,12 @@ class Collector {
  public:
   Collector(std::string path, bool lenient) : path_(std::move(path)), lenient_(lenient) {}
 
+  /// Adds an event, or counts it if it is no earthquake or has no origin or magnitude.
   void add(const Record &record, std::int64_t line);
   /// Counts an event of which the file lacks the preferred origin or magnitude.
   void add_unpreferred() { ++list_.not_preferred; }
 
+  const std::string &path() const { return path_; }
   /// What messages count, if not lines.
   void count_in(std::string_view unit) { unit_ = unit; }
   [[noreturn]] void fail(std::int64_t line, const std::string &what) const;
@@ -34,11 +36,13 @@ class Collector {
 
  private:
   std::string where(std::int64_t number) const;
+  void leave_out_fillers();
 
   std::string path_;
   std::string_view unit_;
   bool lenient_;
   EarthquakeList list_;
+  std::int64_t zeros_with_others_ = 0;  ///< magnitudes of 0 beside others of the same event
 };
 
 }  // namespace LSM::postproc

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <pugixml.hpp>
 
 #include "event_time.h"
 #include "files/file_error.h"
@@ -29,43 +30,47 @@ struct LineCounter {
   }
 };
 
-/// The child `name` of an event whose publicID is given in the element `by`, or the first one.
-/// \param found set to false if the file lacks the one that is given
-pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by,
-                         bool &found) {
-  const std::string_view id = text::trim(event.child_value(by));
-  for (const pugi::xml_node &one : event.children(name))
-    if (!id.empty() && text::trim(one.attribute("publicID").value()) == id) return one;
-  if (!id.empty()) found = false;
-  return event.child(name);
-}
+using nlohmann::json;
 
-/// Removes namespace prefixes from the names of elements. A file may use any prefix for the
-/// namespace of QuakeML, and elements of other namespaces do not have its names.
-struct Unprefixed : pugi::xml_tree_walker {
-  bool for_each(pugi::xml_node &node) override {
-    const std::string_view name = node.name();
-    const std::size_t colon = name.find(':');
-    if (colon != std::string_view::npos) node.set_name(std::string(name.substr(colon + 1)).c_str());
+json parsed(std::string_view content, Collector &out) {
+  constexpr int deepest = 100;
+  LineCounter lines{content};
+  const auto depth = [&](int now, json::parse_event_t, json &) {
+    if (now > deepest)
+      throw FileError(fmt::format("{}: JSON nested more than {} levels deep, expected GeoJSON",
+                                  out.path(), deepest));
     return true;
+  };
+  try {
+    return json::parse(content, depth);
+  } catch (const json::parse_error &error) {
+    const std::string_view says = error.what();
+    const auto has = [says](const char *part) { return says.find(part) != std::string_view::npos; };
+    out.fail(lines.of(static_cast<std::ptrdiff_t>(error.byte) - 1),
+             has("UTF-8")                     ? "text that is not UTF-8, expected GeoJSON"
+             : has("unexpected end of input") ? "the file is truncated, expected GeoJSON"
+             : has("expected end of input")
+                 ? "text after the end of the collection, expected one in a file"
+                 : "no JSON, expected GeoJSON");
+  } catch (const json::out_of_range &error) {  // "... number overflow parsing '1e400'"
+    const std::string_view says = error.what();
+    const std::size_t end = says.rfind('\''), begin = says.rfind('\'', end - 1) + 1;
+    const std::string_view number = says.substr(begin, end - begin);
+    out.fail(lines.of(static_cast<std::ptrdiff_t>(content.find(number))),
+             fmt::format("{} is too large a number, expected GeoJSON", number));
   }
-};
+}
 
 }  // namespace
 
 void read_geojson(std::string_view content, Collector &out) {
-  using nlohmann::json;
-  json document;
-  try {
-    document = json::parse(content);
-  } catch (const json::parse_error &error) {
-    out.fail(LineCounter{content}.of(static_cast<std::ptrdiff_t>(error.byte) - 1),
-             "no JSON, expected GeoJSON");
-  }
+  const json document = parsed(content, out);
+  // Not what an array or object contains, which may be nested.
   const auto text_of = [](const json &value) {
-    return value.is_string() ? value.get<std::string>()
-           : value.is_null() ? std::string()
-                             : value.dump();
+    return value.is_string()       ? value.get<std::string>()
+           : value.is_null()       ? std::string()
+           : value.is_structured() ? value.type_name()
+                                   : value.dump();
   };
   const auto member = [](const json &of, const char *name) -> const json & {
     static const json none;
@@ -77,6 +82,7 @@ void read_geojson(std::string_view content, Collector &out) {
   std::int64_t number = 0;
   Fields last_names;
   TimeColumns times;
+  double latest = 0.0;
   for (const json &feature : features) {
     ++number;
     const json &properties = member(feature, "properties");
@@ -91,7 +97,7 @@ void read_geojson(std::string_view content, Collector &out) {
     record.time = times.texts(values);
     double milliseconds = 0.0;
     if (text::parse(times.first_text(values), milliseconds))
-      record.at = milliseconds / 86400e3;
+      latest = std::max(latest, std::fabs(*(record.at = milliseconds / 86400e3)));
     else
       record.at = times.time_of(values, record.problem);
     if (coordinates.is_array() && coordinates.size() >= 2) {
@@ -101,37 +107,13 @@ void read_geojson(std::string_view content, Collector &out) {
     }
     out.add(record, number);
   }
-}
-
-void read_quakeml(std::string_view content, Collector &out, const std::string &path) {
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(content.data(), content.size());
-  LineCounter lines{content};
-  if (!parsed)
-    out.fail(lines.of(parsed.offset), fmt::format("{}, expected QuakeML", parsed.description()));
-  Unprefixed walker;
-  document.traverse(walker);
-  const pugi::xml_node events = document.document_element().child("eventParameters");
-  if (!events) throw FileError(path + ": no element eventParameters, expected QuakeML");
-  for (const pugi::xml_node &event : events.children("event")) {
-    bool found = true;
-    const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID", found);
-    const pugi::xml_node size = preferred(event, "magnitude", "preferredMagnitudeID", found);
-    const auto value = [](const pugi::xml_node &of, const char *name) {
-      return text::trim(of.child(name).child_value("value"));
-    };
-    Record record;
-    record.time = value(origin, "time");
-    record.at = parse_date(record.time, record.problem);
-    record[Field::latitude] = value(origin, "latitude");
-    record[Field::longitude] = value(origin, "longitude");
-    record[Field::magnitude] = value(size, "mag");
-    record[Field::type] = text::trim(event.child_value("type"));
-    record[Field::depth] = value(origin, "depth");
-    record.depth_per_km = 1000.0;
-    if (!found) out.add_unpreferred();
-    out.add(record, lines.of(event.offset_debug()));
-  }
+  // Seconds would be days of January 1970, smaller units the far future.
+  constexpr double month = 31.0, last = 3e6;  // days
+  if (latest > 0.0 && !(latest > month && latest < last))
+    out.fail(
+        number,
+        fmt::format("all times are within {:.3g} days of 1970, expected milliseconds since 1970",
+                    latest));
 }
 
 }  // namespace LSM::postproc

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_documents.h
-/// Earthquakes in QuakeML and GeoJSON.
+/// Earthquakes in GeoJSON.
 #ifndef LSM_POSTPROC_EVENT_DOCUMENTS_H
 #define LSM_POSTPROC_EVENT_DOCUMENTS_H
 
-#include <string>
 #include <string_view>
 
 #include "event_collector.h"
@@ -14,8 +13,6 @@ namespace LSM::postproc {
 /// A collection of GeoJSON as ComCat writes it: times in milliseconds since 1970, places as
 /// coordinates. The names of properties are those of columns.
 void read_geojson(std::string_view content, Collector &out);
-
-void read_quakeml(std::string_view content, Collector &out, const std::string &path);
 
 }  // namespace LSM::postproc
 

@@ -62,6 +62,13 @@ Places places_in(const Fields &names) {
       const auto at = std::find(plain_names.begin(), plain_names.end(), known);
       if (places[field] < 0 && at != plain_names.end()) places[field] = at - plain_names.begin();
     }
+  static const std::set<std::string, std::less<>> magnitudes = {
+      "mag", "magnitude", "mw", "mww", "mwc",  "mwb", "mwr", "mwp", "ml", "mlv",
+      "md",  "mc",        "mh", "mb",  "mblg", "ms",  "mj",  "me",  "xm"};
+  for (std::size_t i = 0; i < plain_names.size(); ++i)
+    if (magnitudes.count(plain_names[i]) > 0 &&
+        std::find(places.begin(), places.end(), static_cast<std::ptrdiff_t>(i)) == places.end())
+      places.other_magnitudes.push_back(i);
   return places;
 }
 
@@ -69,6 +76,10 @@ Record record_of(const Fields &values, const Places &places) {
   Record record;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (places[i] >= 0) record.texts[i] = text::trim(values[static_cast<std::size_t>(places[i])]);
+  double other = 0.0;
+  for (const std::size_t i : places.other_magnitudes)
+    if (text::parse(text::trim(values[i]), other))
+      record.other_magnitude = std::max(record.other_magnitude, other);
   return record;
 }
 

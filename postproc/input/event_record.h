@@ -38,6 +38,8 @@ struct Record {
   std::optional<double> at = {};  ///< days since 1970, unless the time cannot be read
   std::string problem = {};       ///< what was expected instead of such a time, if known
   double depth_per_km = 1.0;
+  bool has_origin = true;        ///< whether there is any time and place
+  double other_magnitude = 0.0;  ///< the largest of the event's other magnitudes
 
   std::string &operator[](Field field) { return texts[static_cast<std::size_t>(field)]; }
   const std::string &operator[](Field field) const {
@@ -49,7 +51,9 @@ struct Record {
 Fields split_blanks(std::string_view line);
 
 /// Position of each field among names of columns or properties; -1: missing.
-using Places = std::array<std::ptrdiff_t, number_of_fields>;
+struct Places : std::array<std::ptrdiff_t, number_of_fields> {
+  std::vector<std::size_t> other_magnitudes = {};  ///< and those of magnitudes that are no field
+};
 Places places_in(const Fields &names);
 
 /// The record whose values, in the order of the names, are these.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "earthquakes.h"
+#include "text_bytes.h"
 
 namespace {
 
@@ -33,8 +34,10 @@ std::string columns(std::int64_t events) {
 
 void read(benchmark::State &state, std::string (*text_of)(std::int64_t)) {
   const std::string text = text_of(state.range(0));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(read_earthquakes(text, detect_format(text), "file", false));
+  for (auto _ : state) {
+    unit::TextBytes bytes(text, "file");
+    benchmark::DoNotOptimize(read_earthquakes(bytes, detect_format(text), false));
+  }
   state.SetComplexityN(state.range(0));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }

@@ -34,7 +34,7 @@ CTEST = os.environ.get("LSM_MATRIX_CTEST", "")
 # The fault of every column: short, fast plates, with events, energies and the places of events.
 SCENE = dict(preset="absorbing", length=30, width=16, seed=3, settle=2000, steps=6000, checkpoint=3000, velocity=0.01, thermo=3000, location="yes",
              ledger="yes")
-LIBRARIES = ("libgsl-dev libfftw3-dev libfmt-dev liblzma-dev libpugixml-dev libcli11-dev nlohmann-json3-dev libhowardhinnant-date-dev "
+LIBRARIES = ("libgsl-dev libfftw3-dev libfmt-dev liblzma-dev libexpat1-dev libcli11-dev nlohmann-json3-dev libhowardhinnant-date-dev "
              "libjs-dygraphs")
 # Runs on ARM and on this machine. Positions of ruptures depend on sines and logarithms of the C library.
 SLIDERS = {

@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "catalogue_input.h"
+#include "files/file_error.h"
 #include "event_time.h"
+#include "text_bytes.h"
 #include "unit_files.h"
 
 using namespace LSM;
@@ -72,7 +75,8 @@ const std::string quakeml =
     "</eventParameters></q:quakeml>\n";
 
 EarthquakeList read(const std::string &content, bool lenient = false) {
-  return read_earthquakes(content, detect_format(content), "file", lenient);
+  unit::TextBytes bytes(content, "file");
+  return read_earthquakes(bytes, detect_format(content), lenient);
 }
 
 TEST(Earthquakes, FormatsAreDetected) {
@@ -145,15 +149,16 @@ TEST(Earthquakes, WhatCannotBeReadIsNamed) {
       {zmap + "-118 34 1994 13 1 2 5 0 0 0\n", "file:4: no event of ZMAP, expected longitude"},
       {"<quakeml>\n<eventParameters>\n<event>\n</eventParameters></quakeml>\n", "expected QuakeML"},
       {"<quakeml/>\n", "file: no element eventParameters, expected QuakeML"},
-      {"<quakeml><eventParameters>\n<event><type>earthquake</type></event>\n"
-       "</eventParameters></quakeml>\n",
+      {"<quakeml><eventParameters>\n<event><origin/></event>\n</eventParameters></quakeml>\n",
        "file:2: time is '', expected a date and time"}};
   for (const auto &one : cases)
     EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says))
         << message_of<FileError>([&] { read(one.content); });
-  EXPECT_TRUE(
-      contains(message_of<FileError>([] { read_earthquakes("a,b\n1,2\n", "csv", "file", false); }),
-               "file:1: column names without time, latitude, longitude and mag"));
+  EXPECT_TRUE(contains(message_of<FileError>([] {
+                         unit::TextBytes bytes("a,b\n1,2\n", "file");
+                         read_earthquakes(bytes, "csv", false);
+                       }),
+                       "file:1: column names without time, latitude, longitude and mag"));
   const EarthquakeList list = read(csv + "nonsense\nmore\n", true);
   EXPECT_EQ(list.events.size(), 3u);
   EXPECT_EQ(list.bad_lines, 2);
@@ -368,9 +373,11 @@ TEST(Earthquakes, LinesThatAreNoneOfAFormat) {
   EXPECT_EQ(detect_format("2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw\n"), "models");
   for (const char *line : {"2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw 100 50\n",
                            "2009/04/06 01:32:39.00 ITALY 2.334 11.334 8.8 6.3 Mw 100 50\n"})
-    EXPECT_TRUE(
-        contains(message_of<FileError>([&] { read_earthquakes(line, "scedc", "file", false); }),
-                 "file:1: "));
+    EXPECT_TRUE(contains(message_of<FileError>([&] {
+                           unit::TextBytes bytes(line, "file");
+                           read_earthquakes(bytes, "scedc", false);
+                         }),
+                         "file:1: "));
   // The same with its names.
   const EarthquakeList list = read(
       "Date       Time             Lat       Lon  Depth   Mag Magt\n"
@@ -557,6 +564,133 @@ TEST_F(EarthquakeInput, Selection) {
   options.from_time = 1984;
   EXPECT_TRUE(contains(message_of<std::invalid_argument>([&] { load_catalogues(options); }),
                        "all catalogues are of earthquakes, expected a date such as 1984-01-01"));
+}
+
+// Files that were joined by the shell, or whose downloads were in chunks.
+TEST(Earthquakes, QuakemlOfSeveralDocuments) {
+  const std::string comment = "<!-- <event> is no event here -->\n", mark = "\xef\xbb\xbf";
+  const std::size_t begin = quakeml.find("<eventParameters"), end = quakeml.find("</q:quakeml>");
+  const std::string parameters = quakeml.substr(begin, end - begin);
+  for (const std::string &content :
+       {quakeml + quakeml + quakeml,
+        mark + quakeml + "\r\n" + mark + quakeml + comment + quakeml + comment,
+        quakeml.substr(0, end) + parameters + parameters + "</q:quakeml>"}) {
+    const EarthquakeList list = read(content);
+    EXPECT_EQ(list.events.size(), 9u);
+    EXPECT_EQ(list.others.at("quarry blast"), 3);
+  }
+  // Wherever the blocks end in which a file is read.
+  for (std::size_t gap = 0; gap < quakeml.size(); gap += 3) {
+    const std::string blanks((1 << 16) - quakeml.size() - gap, ' ');
+    EXPECT_EQ(read(quakeml + blanks + quakeml).events.size(), 6u) << gap;
+    EXPECT_EQ(
+        read("<!--" + blanks + "-->" + quakeml.substr(quakeml.find("<q:")) + quakeml).events.size(),
+        6u)
+        << gap;
+  }
+  const struct {
+    std::string content, says;
+  } cases[] = {
+      {quakeml + "\n" + quakeml.substr(0, 900), "file:"},
+      {quakeml + "<html><body>Too many requests</body></html>", "file: no element eventParameters"},
+      {quakeml + "Error 413: too many events", "expected QuakeML"},
+      {"<quakeml><eventParameters><event></eventParameters></quakeml>", "file:1: mismatched tag"},
+      {quakeml.substr(0, 900), "expected QuakeML"},
+      {"<!-- nothing -->", "expected QuakeML"}};
+  for (const auto &one : cases)
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says));
+  const std::string wrong =
+      quakeml +
+      "\n<quakeml><eventParameters>\n<event><origin/></event></eventParameters></quakeml>";
+  const auto lines = std::count(quakeml.begin(), quakeml.end(), '\n');
+  EXPECT_TRUE(contains(message_of<FileError>([&] { read(wrong); }),
+                       "file:" + std::to_string(lines + 3) + ": time is ''"));
+}
+
+// What leaves an event out is asked before what it lacks.
+TEST(Earthquakes, EventsWithoutOrigin) {
+  const std::size_t end = quakeml.find("</eventParameters>");
+  const std::string
+      gone = "<event publicID=\"quakeml:6\"><type>not existing</type></event>\n",
+      none =
+          "<event publicID=\"quakeml:7\"><magnitude><mag><value>5</value></mag></magnitude></event>\n";
+  const EarthquakeList list = read(quakeml.substr(0, end) + gone + none + quakeml.substr(end));
+  EXPECT_EQ(list.events.size(), 3u);
+  EXPECT_EQ(list.others.at("not existing"), 1);
+  EXPECT_EQ(list.without_origin, 1);
+  EXPECT_EQ(
+      read("time,latitude,longitude,mag,type\n2020-01-01,1,2,3,earthquake\n?,?,?,?,quarry blast\n")
+          .events.size(),
+      1u);
+}
+
+TEST(Earthquakes, EventsAtVolcanoesStay) {
+  for (const char *type : {"VT", "vt", "volcano-tectonic", "LP", "HB"})
+    EXPECT_EQ(read(std::string("time,latitude,longitude,mag,type\n2020-01-01,1,2,3,") + type + "\n")
+                  .events.size(),
+              1u)
+        << type;
+}
+
+TEST(Earthquakes, NumbersThatStandForNoMagnitude) {
+  std::string good = "time,latitude,longitude,mag\n";
+  for (int k = 0; k < 30; ++k)
+    good += "2020-01-01,1,2," + std::to_string(2.5 + 0.1 * (k % 9)).substr(0, 3) + "\n";
+  for (const char *none : {"-9", "-9.9", "-9.99", "-99", "-99.0", "-999", "-9999.00", "99", "99.9",
+                           "99.99", "9.99", "9.90", "-10", "999"}) {
+    const EarthquakeList list = read(good + "2020-01-02,1,2," + none + "\n");
+    EXPECT_EQ(list.events.size(), 30u) << none;
+    EXPECT_EQ(list.fillers.at(none), 1);
+  }
+  for (const char *none : {"0", "0.0", "-1", "-1.00", "-5"}) {
+    const std::string line = std::string("2020-01-02,1,2,") + none + "\n";
+    EXPECT_EQ(read(good + line + line + line).events.size(), 30u) << none;
+    EXPECT_EQ(read(good + line + line).events.size(), 32u) << none;  // too few to tell
+  }
+  for (const char *some : {"-3.2", "-1.5", "0.9", "9.5", "-8.5"}) {
+    const std::string line = std::string("2020-01-02,1,2,") + some + "\n";
+    EXPECT_EQ(read(good + line + line + line).events.size(), 33u) << some;
+  }
+  // Small earthquakes fill the range down to 0.
+  std::string small = good;
+  for (int k = 0; k < 10; ++k)
+    small += "2020-01-02,1,2," + std::to_string(0.2 * k).substr(0, 3) + "\n";
+  EXPECT_EQ(read(small + "2020-01-02,1,2,0.0\n2020-01-02,1,2,0.0\n").events.size(), 42u);
+  // Where agencies have columns of their own, 0 beside another magnitude is none.
+  const EarthquakeList list = read(
+      "time,latitude,longitude,xM,MD,ML,Mw\n2020-01-01,1,2,4.1,4.1,0.0,0.0\n2020-01-02,1,2,5.0,0.0,4.9,5.0\n");
+  ASSERT_EQ(list.events.size(), 1u);
+  EXPECT_EQ(list.events[0].magnitude, 5.0);
+  EXPECT_EQ(list.fillers.at("0"), 1);
+}
+
+TEST(Earthquakes, GeojsonThatIsNone) {
+  const std::string
+      head =
+          "{\"type\":\"FeatureCollection\",\n\"features\":[{\"type\":\"Feature\",\n\"properties\":",
+      tail = ",\"geometry\":{\"type\":\"Point\",\"coordinates\":[142,38,10]}}]}\n",
+      good = "{\"mag\":5,\"time\":1299822384120}";
+  EXPECT_EQ(read(head + good + tail).events.size(), 1u);
+  EXPECT_EQ(read(head + "{\"mag\":5,\"time\":1299822384120,\"products\":{\"a\":[1,[2]]}}" + tail)
+                .events.size(),
+            1u);
+  const std::string deep(100000, '[');
+  const struct {
+    std::string content, says;
+  } cases[] = {
+      {head + "{\"x\":" + deep + std::string(100000, ']') + "}" + tail,
+       "file: JSON nested more than 100 levels deep"},
+      {head + "{\"mag\":5,\"place\":\"Izmir K\xf6rfezi\"}" + tail,
+       "file:3: text that is not UTF-8"},
+      {head + good, "the file is truncated"},
+      {head + "{\"mag\":1e400,\"time\":1}" + tail, "file:3: 1e400 is too large a number"},
+      {head + good + tail + head + good + tail, "file:4: text after the end of the collection"},
+      {head + "{\"mag\":[5],\"time\":1299822384120}" + tail,
+       "feature 1: magnitude is 'array', expected a number"},
+      {head + "{\"mag\":5,\"time\":1299822384.12}" + tail, "expected milliseconds since 1970"},
+      {head + "{\"mag\":5,\"time\":1299822384120000}" + tail, "expected milliseconds since 1970"}};
+  for (const auto &one : cases)
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says));
 }
 
 }  // namespace

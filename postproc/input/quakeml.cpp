@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "quakeml.h"
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "event_time.h"
+#include "files/file_error.h"
+#include "files/text.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+/// The name of an element without the prefix of its namespace. A file may use any prefix for that
+/// of QuakeML, and elements of other namespaces do not have its names.
+std::string_view plain_name(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+/// An origin or a magnitude.
+struct QuakemlPart {
+  std::string id;
+  Record record = {};
+};
+
+struct QuakemlEvent {
+  std::int64_t line = 0;
+  std::vector<QuakemlPart> origins = {}, magnitudes = {};
+  std::string type = {}, origin_id = {}, magnitude_id = {};
+};
+
+/// Reads documents, which may follow one another as in files that were joined, and keeps no more
+/// than the events of one block.
+class QuakemlReader {
+ public:
+  QuakemlReader(files::Bytes &bytes, Collector &out) : bytes_(bytes), out_(out) {
+    if (!parser_) throw std::bad_alloc();
+  }
+
+  void read() {
+    std::vector<char> block(1 << 16);
+    for (bool more = true; more;) {
+      const std::size_t got = bytes_.read(block.data(), block.size());
+      more = got > 0;
+      std::string_view text(block.data(), got);
+      do parse(text, !more);
+      while (!text.empty());
+    }
+  }
+
+ private:
+  /// Parses up to the end of the text or of the document, and removes this from the text.
+  void parse(std::string_view &text, bool last) {
+    if (!begun_) {
+      // Before a document, XML allows for nothing.
+      const std::size_t begin =
+          std::min(text.find_first_not_of(" \t\r\n\xef\xbb\xbf"), text.size());
+      for (const char c : text.substr(0, begin)) first_line_ += c == '\n';
+      text.remove_prefix(begin);
+      if (text.empty() && (!last || documents_ > 0)) return;
+      // What is wanted is ASCII. Latin-1 has a meaning for all bytes of whatever else there is.
+      XML_ParserReset(parser_.get(), "ISO-8859-1");
+      XML_SetUserData(parser_.get(), this);
+      XML_SetElementHandler(parser_.get(), start, end);
+      XML_SetCharacterDataHandler(parser_.get(), characters);
+      XML_SetCommentHandler(parser_.get(), comment);
+      begun_ = true;
+      ended_.reset();
+      had_root_ = has_parameters_ = false;
+      done_ = 0;
+    }
+    const XML_Status status =
+        XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), last);
+    for (const QuakemlEvent &event : std::exchange(events_, {})) add(event);
+    if (ended_) {
+      if (had_root_ && !has_parameters_)
+        throw FileError(out_.path() + ": no element eventParameters, expected QuakeML");
+      first_line_ += static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get())) - 1;
+      text.remove_prefix(static_cast<std::size_t>(*ended_ - done_));
+      begun_ = false;
+      documents_ += had_root_;
+      return;
+    }
+    if (status != XML_STATUS_OK)
+      out_.fail(line(), fmt::format("{}, expected QuakeML",
+                                    XML_ErrorString(XML_GetErrorCode(parser_.get()))));
+    done_ += static_cast<XML_Index>(text.size());
+    text = {};
+  }
+
+  std::int64_t line() const {
+    return first_line_ + static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get())) - 1;
+  }
+
+  static void start(void *reader, const XML_Char *name, const XML_Char **attributes) {
+    static_cast<QuakemlReader *>(reader)->start(plain_name(name), attributes);
+  }
+  void start(std::string_view name, const XML_Char **attributes) {
+    ++depth_;
+    text_.clear();
+    if (depth_ == 2) in_parameters_ = name == "eventParameters";
+    has_parameters_ = has_parameters_ || (depth_ == 2 && in_parameters_);
+    if (depth_ == 3 && in_parameters_ && name == "event") {
+      event_.emplace(QuakemlEvent{line()});
+      inside_.clear();
+    } else if (event_) {
+      inside_.append("/").append(name);
+      if (inside_ != "/origin" && inside_ != "/magnitude") return;
+      std::vector<QuakemlPart> &parts = inside_ == "/origin" ? event_->origins : event_->magnitudes;
+      parts.emplace_back();
+      for (; *attributes; attributes += 2)
+        if (std::string_view(attributes[0]) == "publicID")
+          parts.back().id = text::trim(attributes[1]);
+    }
+  }
+
+  static void end(void *reader, const XML_Char *) { static_cast<QuakemlReader *>(reader)->end(); }
+  void end() {
+    if (event_ && depth_ > 3) {
+      if (std::string *const place = place_of_text(); place && place->empty())
+        *place = text::trim(text_);
+      inside_.resize(inside_.rfind('/'));
+    } else if (event_) {
+      events_.push_back(*std::exchange(event_, std::nullopt));
+    }
+    text_.clear();
+    if (--depth_ > 0) return;
+    had_root_ = true;
+    stop();
+  }
+
+  /// Lets what follows be the beginning of a document.
+  void stop() {
+    ended_ = XML_GetCurrentByteIndex(parser_.get()) + XML_GetCurrentByteCount(parser_.get());
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+  static void comment(void *reader, const XML_Char *text) {
+    QuakemlReader &self = *static_cast<QuakemlReader *>(reader);
+    // Between documents; XML does not allow for a declaration after it.
+    if (XML_GetCurrentByteIndex(self.parser_.get()) != 0) return;
+    for (; *text; ++text) self.first_line_ += *text == '\n';
+    self.stop();
+  }
+
+  /// Where the text of this element goes; nullptr: it is not wanted.
+  std::string *place_of_text() {
+    const auto in = [this](std::vector<QuakemlPart> &parts, Field field) {
+      return &parts.back().record[field];
+    };
+    return inside_ == "/origin/time/value"        ? &event_->origins.back().record.time
+           : inside_ == "/origin/latitude/value"  ? in(event_->origins, Field::latitude)
+           : inside_ == "/origin/longitude/value" ? in(event_->origins, Field::longitude)
+           : inside_ == "/origin/depth/value"     ? in(event_->origins, Field::depth)
+           : inside_ == "/magnitude/mag/value"    ? in(event_->magnitudes, Field::magnitude)
+           : inside_ == "/type"                   ? &event_->type
+           : inside_ == "/preferredOriginID"      ? &event_->origin_id
+           : inside_ == "/preferredMagnitudeID"   ? &event_->magnitude_id
+                                                  : nullptr;
+  }
+
+  static void characters(void *reader, const XML_Char *text, int count) {
+    constexpr std::size_t most = 1000;  // more is no number, name or date
+    std::string &known = static_cast<QuakemlReader *>(reader)->text_;
+    if (known.size() < most) known.append(text, static_cast<std::size_t>(count));
+  }
+
+  /// The part that the event prefers, or the first one; nullptr: there is none.
+  /// \param found set to false if the file lacks the one that is preferred
+  static const QuakemlPart *preferred(const std::vector<QuakemlPart> &parts, const std::string &id,
+                                      bool &found) {
+    for (const QuakemlPart &part : parts)
+      if (!id.empty() && part.id == id) return &part;
+    if (!id.empty()) found = false;
+    return parts.empty() ? nullptr : &parts.front();
+  }
+
+  void add(const QuakemlEvent &event) {
+    bool found = true;
+    const QuakemlPart *const origin = preferred(event.origins, event.origin_id, found);
+    const QuakemlPart *const size = preferred(event.magnitudes, event.magnitude_id, found);
+    Record record = origin ? origin->record : Record();
+    record[Field::type] = event.type;
+    record.depth_per_km = 1000.0;
+    record.has_origin = origin != nullptr;
+    record.at = parse_date(record.time, record.problem);
+    if (size) record[Field::magnitude] = size->record[Field::magnitude];
+    for (const QuakemlPart &part : event.magnitudes)
+      if (double other = 0.0; &part != size && text::parse(part.record[Field::magnitude], other))
+        record.other_magnitude = std::max(record.other_magnitude, other);
+    if (!found) out_.add_unpreferred();
+    out_.add(record, event.line);
+  }
+
+  struct Free {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+
+  files::Bytes &bytes_;
+  Collector &out_;
+  std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate(nullptr)};
+  // Of the file: line of its first document that is not read yet, and number of those that are.
+  std::int64_t first_line_ = 1, documents_ = 0;
+  // Of the document: whether it has begun, bytes of it in the blocks before, its end.
+  bool begun_ = false, had_root_ = false, has_parameters_ = false, in_parameters_ = false;
+  XML_Index done_ = 0;
+  std::optional<XML_Index> ended_;
+  int depth_ = 0;
+  std::optional<QuakemlEvent> event_;
+  std::vector<QuakemlEvent> events_;  // of the block
+  std::string inside_, text_;         // path of the element in the event, and its text so far
+};
+
+}  // namespace
+
+void read_quakeml(files::Bytes &bytes, Collector &out) { QuakemlReader(bytes, out).read(); }
+
+}  // namespace LSM::postproc
