@@ -669,6 +669,15 @@ def ratio_values():
                     ratios[length] = max(rates) / min(rates)
             for length, ratio in [*ratios.items(), ("most", max(ratios.values()))]:
                 yield Value(f"ratio.{name}.{length}.{least:g}", ratio, math.nan, "", 3, "values.csv")
+    ratios = {}
+    for length in LENGTHS:  # of ruptures, of those faults that have any
+        rates = [
+            np.mean([per_length(run, run.events["size"] >= 1e-2)[0] for run in runs])
+            for runs in (runs_of(fault, length, "slips") for fault in FAULTS) if runs
+        ]
+        if len(rates) > 1:
+            ratios[length] = max(rates) / min(rates)
+    yield Value("ratio.ruptures.most.0.01", max(ratios.values()), math.nan, "", len(ratios), "values.csv")
 
 
 def fit_values(postproc):
