@@ -31,8 +31,9 @@ def test_fault_120(on_ranks, postproc):
     _, events = read_catalogue("short.catalogue.csv")
     columns = list(events.values())
     assert len(events["size"]) >= 3
-    # Sizes are positive and the rupture is no longer than the fault.
-    assert (events["size"] > 0).all() and (columns[8] >= 0).all() and (columns[9] >= 0).all()
+    # Sizes are positive, large drops slip forwards (small ones of waves may slip back), and the rupture is no longer than the fault.
+    large = events["size"] >= 0.01
+    assert (events["size"] > 0).all() and large.sum() >= 3 and (columns[8][large] > 0).all() and (columns[9] >= 0).all()
     assert (columns[9] <= 120).all() and (columns[10] <= 120).all()
     table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
     ratio = float([line.split() for line in table.splitlines() if len(line.split()) == 8][-1][6])
