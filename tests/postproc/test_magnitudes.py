@@ -439,3 +439,20 @@ def test_times_at_a_typed_limit(postproc, work):
         found = json.loads(run(postproc, f"count c.csv --from {typed} --json -").out)["catalogues"][0]["events"]
         until = json.loads(run(postproc, f"count c.csv --to {typed} --json -").out)["catalogues"][0]["events"]
         assert (found, until) == (10 - k, k), typed
+
+
+def test_a_sequence_that_begins_with_its_main_shock_has_a_reason(postproc, work):
+    """The time before a main shock has to be in the catalogue; that of the only one here begins before it."""
+    quakes("sequence.csv", ["6.2"] + ["2.5"] * 200)
+    words = "aftershocks sequence.csv --threshold M2.5 --main-size M6 --window 4 --replicas 0 --no-picture -o o"
+    assert re.search("no main shock.*of 1 of size .* 1 come less than 4 days after the first event", run(postproc, words).err)
+    quakes("later.csv", ["2.5"] * 120 + ["6.2"] + ["2.5"] * 200)
+    assert "no main shock" not in run(postproc, words.replace("sequence.csv", "later.csv") + " --overwrite").err
+
+
+def test_export_reads_the_format_that_is_given(postproc, work):
+    """A line that may be of several formats is one of that which --input-format names."""
+    Path("a.txt").write_text("-120 34 1994 1 17 4.5 10 12 30\n")
+    run(postproc, "export a.txt --input-format zmap -o z.csv")
+    assert "1994-01-17T12:30" in Path("z.csv").read_text() and ",4.5" in Path("z.csv").read_text()
+    refused(postproc, "export a.txt --input-format csv -o c.csv", "a.txt.*expected")
