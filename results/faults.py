@@ -311,7 +311,7 @@ def find_ruptures(*folders):
         history = history_of(folder)
         name, length, time = folder.name, float(history.header["length"]), history.count * history.span / 1000
         for slipping, merged in TESTS if length == 120 else ((SLIPPING, 1),):
-            begin, end, work, slip, start, places = found = ruptures_in(history, slipping, merged)
+            begin, end, work, slip, start, places = ruptures_in(history, slipping, merged)
             row = dict(run=name, fault=name.split("_")[0], length=length, packing=history.header["seed"], slipping=slipping, merged=merged, time=time,
                        share=work.sum() / history.work.sum())
             for least in SIZES:
@@ -657,26 +657,26 @@ def rate_values():
                     yield Value(f"rate.{name}.{fault}.{length}.{least:g}", *value, "1/1000", len(runs), sources(runs))
 
 
-def ratio_values():
-    """The largest over the smallest rate of the three faults, where all have one: at each length, and the largest of these."""
-    found = {one.key: one.value for one in rate_values()}
+def ratio_values(rates):
+    """The largest over the smallest of these rates of the three faults, where all have one: at each length, and the largest of these."""
+    found = {one.key: one.value for one in rates}
     for name in "drops", "slips":
         for least in SIZES:
             ratios = {}
             for length in LENGTHS:
-                rates = [found.get(f"rate.{name}.{fault}.{length}.{least:g}") for fault in FAULTS]
-                if None not in rates:
-                    ratios[length] = max(rates) / min(rates)
+                three = [found.get(f"rate.{name}.{fault}.{length}.{least:g}") for fault in FAULTS]
+                if None not in three:
+                    ratios[length] = max(three) / min(three)
             for length, ratio in [*ratios.items(), ("most", max(ratios.values()))]:
                 yield Value(f"ratio.{name}.{length}.{least:g}", ratio, math.nan, "", 3, "values.csv")
     ratios = {}
     for length in LENGTHS:  # of ruptures, of those faults that have any
-        rates = [
+        means = [
             np.mean([per_length(run, run.events["size"] >= 1e-2)[0] for run in runs])
             for runs in (runs_of(fault, length, "slips") for fault in FAULTS) if runs
         ]
-        if len(rates) > 1:
-            ratios[length] = max(rates) / min(rates)
+        if len(means) > 1:
+            ratios[length] = max(means) / min(means)
     yield Value("ratio.ruptures.most.0.01", max(ratios.values()), math.nan, "", len(ratios), "values.csv")
 
 
@@ -895,8 +895,9 @@ def cut_values(postproc):
 
 
 def all_values(postproc):
+    rates = list(rate_values())
     return [
-        *rate_values(), *ratio_values(), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(),
+        *rates, *ratio_values(rates), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(),
         *rupture_values(), *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
     ]
 

@@ -117,7 +117,8 @@ def agreement_table():
     columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
     rows = [f"{fault}.{length}" for fault in article.FAULTS for length in (120, 480, 1890)]
     head, line, *rest = keyed_table("fault, length", rows, columns).split("\n")
-    packings = [f"{values.read()[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)} |" for row in rows]
+    found = values.read()
+    packings = [f"{found[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)} |" for row in rows]
     lines = [head + " packings, of which fitted |", line + "---|", f"| paper, all lengths | {article.PAPER:.0f} |  | 1.07 | 0.995 | 15.2 |  |"]
     return "\n".join(lines + [f"{cells} {packing}" for cells, packing in zip(rest, packings)])
 
@@ -252,32 +253,12 @@ def keyed_table(head, rows, columns):
     return table([head, *columns], [[row.replace(".", ", ", 1), *some] for row, some in cells.items() if set(some) != {"-"}])
 
 
-FAULTS_AND_LENGTHS = [f"{fault}.{length}" for fault in article.FAULTS for length in article.LENGTHS]
-
-
-def drops_table():
-    """Drops of the three faults at all lengths."""
-    columns = {"drops >= 1e-4 in 1000 time units": ("rate.drops.{}.0.0001", "()"), "slips >= 0.1": ("rate.slips.{}.0.1", "()")}
-    columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
-    columns |= {"slip of 0.001 to 0.1, %, random null": ("share.random.{}", "%()"), "mirror null": ("share.mirror.{}", "%()")}
-    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns)
-
-
 def default_fault_table():
     """The default fault at packings to which nothing was fitted."""
     rows = sorted((key.removeprefix("run.exponent.leaky.") for key in values.read() if key.startswith("run.exponent.leaky.")),
                   key=lambda row: [int(number) for number in row.split(".")])
     columns = {key if key != "mean_time" else "one drop in": (f"run.{key}.leaky.{{}}", "()") for key in ("exponent", "gamma", "B", "mean_time")}
     return keyed_table("length, packing", rows, columns)
-
-
-def connected_slip_table():
-    """Ruptures by friction."""
-    columns = {f"ruptures >= {size}": (f"ruptures.rate.{{}}.{size}", "()") for size in ("0.001", "0.01", "0.1")}
-    columns |= {
-        "longest": ("ruptures.longest.{}", ".0f"), "mean time at one place": ("place.mean.{}", ".0f"), "variation": ("place.variation.{}", "()")
-    }
-    return keyed_table("fault, length", FAULTS_AND_LENGTHS, columns)
 
 
 def threshold_table():
