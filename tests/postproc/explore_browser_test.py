@@ -86,7 +86,7 @@ class Page(unittest.TestCase):
             lmp, scene, *launcher = fault
             # With stiff contacts and plates that absorb waves, almost all slip is in ruptures; soft contacts
             # also slip slowly between them.
-            values = "stress 0.02 viscosity 0.015 kt 1 impedance 0.6 contacts fault".split()
+            values = "preset absorbing stress 0.02 viscosity 0.015 kt 1 impedance 0.6 contacts fault".split()
             changed = [word for name, value in zip(values[::2], values[1::2]) for word in ("-var", name, value)]
             run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "seed", "3", "-var", "steps", "50000", *changed, "-var",
                 "ruptures", "yes", "-var", "prefix", "run")
