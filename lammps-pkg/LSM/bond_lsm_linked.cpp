@@ -75,7 +75,9 @@ static std::vector<int> sorted_by(const std::vector<Element> &elements, const Ke
   std::iota(order.begin(), order.end(), 0);
   tagint most = keys.empty() ? 0 : *std::max_element(keys.begin(), keys.end());
   for (int shift = 0; most > 0; shift += BITS, most >>= BITS) {
-    const auto digit = [&](int n) { return keys[n] >> shift & ((1 << BITS) - 1); };
+    const auto digit = [&](int n) {
+      return keys[n] >> shift & ((1 << BITS) - 1);
+    };
     std::vector<int> begin((1 << BITS) + 1, 0);
     for (int n : order) begin[digit(n) + 1]++;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -126,11 +128,14 @@ void BondLSMLinked::collect()
     if (links.empty()) continue;
     const bool first_only = kind >= types;
     const int type = 1 + kind % types;
-    const auto low = [tag](const Ends &link) { return MIN(tag[link.i], tag[link.j]); };
+    const auto low = [tag](const Ends &link) {
+      return MIN(tag[link.i], tag[link.j]);
+    };
     std::vector<int> order = sorted_by(links, low);
     for (auto begin = order.begin(); begin != order.end();) {
-      const auto end = std::find_if(
-          begin, order.end(), [&, of = low(links[*begin])](int n) { return low(links[n]) != of; });
+      const auto end = std::find_if(begin, order.end(), [&, of = low(links[*begin])](int n) {
+        return low(links[n]) != of;
+      });
       std::sort(begin, end, [&](int a, int b) {
         const auto key = [&](const Ends &link) {
           return std::make_pair(MAX(tag[link.i], tag[link.j]), tag[link.i]);
@@ -160,7 +165,9 @@ std::vector<int> BondLSMLinked::owned_by_id() const
   std::vector<int> owned(atom->nlocal);
   std::iota(owned.begin(), owned.end(), 0);
   if (!std::is_sorted(tag, tag + atom->nlocal))
-    std::sort(owned.begin(), owned.end(), [tag](int i, int j) { return tag[i] < tag[j]; });
+    std::sort(owned.begin(), owned.end(), [tag](int i, int j) {
+      return tag[i] < tag[j];
+    });
   return owned;
 }
 
@@ -182,8 +189,9 @@ template <int DIM> void BondLSMLinked::eval()
 template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
 {
   if (has_dashpot(s.type))
-    return add_forces<DIM>(s, LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
-                                                              velocity->now(0), &velocity->power});
+    return add_forces<DIM>(s,
+                           LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
+                                                           velocity->now(0), &velocity->power});
   return add_forces<DIM>(s, law);
 }
 
@@ -212,7 +220,7 @@ void BondLSMLinked::note_broken(Segment &segment)
     double none;
     if (record_what)
       work_broken += (segment.first_only ? 0.5 : 1.0) *
-                     single(segment.type, MathExtra::distsq3(atom->x[i], atom->x[j]), i, j, none);
+          single(segment.type, MathExtra::distsq3(atom->x[i], atom->x[j]), i, j, none);
     collected_at = -1;
   }
 }
@@ -264,7 +272,9 @@ void BondLSMLinked::for_each_current(const std::function<void(const CurrentLink 
 
 static bool any_above_0(const std::vector<double> &of_types)
 {
-  return std::any_of(of_types.begin(), of_types.end(), [](double value) { return value > 0.0; });
+  return std::any_of(of_types.begin(), of_types.end(), [](double value) {
+    return value > 0.0;
+  });
 }
 
 bool BondLSMLinked::is_viscous() const

@@ -36,7 +36,9 @@ enum { RUPTURES, LAST_WORK, OPEN, NRUPTURES };
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
     sources(_lmp, settings), gather(world),
-    guard(_lmp, sources, options.watchdog, options.emergency_file, [this] { flush(); })
+    guard(_lmp, sources, options.watchdog, options.emergency_file, [this] {
+      flush();
+    })
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -44,7 +46,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   extscalar = 0;
   extvector = 0;
   size_vector = NVECTOR + (options.ledger || settings.finds_ruptures() ? NLEDGER : 0) +
-                (settings.finds_ruptures() ? NRUPTURES : 0);
+      (settings.finds_ruptures() ? NRUPTURES : 0);
   settings.name = id;
 
   if (modify->get_fix_by_id(id_of_fix()))
@@ -74,7 +76,9 @@ ComputeLSMEvents::~ComputeLSMEvents()
 // rank 0 has received all complete intervals at the end of the last run
 void ComputeLSMEvents::write_rest()
 {
-  on_rank_0([this] { stream->write_rest(options.unfinished); });
+  on_rank_0([this] {
+    stream->write_rest(options.unfinished);
+  });
 }
 
 void ComputeLSMEvents::init()
@@ -131,13 +135,17 @@ void ComputeLSMEvents::open_files()
   const bool from_restart = !recorder->saved_state.empty();
   clock = {update->atime, update->atimestep, update->dt};
   for (auto &one : sources.variables()) settings.parameters.push_back(std::move(one));
-  const std::string problem =
-      lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
+  const std::string problem = lsm_on_0(world, [this] {
+    stream = std::make_unique<LSM::EventStream>(settings);
+  });
   if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
   std::unique_ptr<LSM::SavedStream> saved;
   if (from_restart) saved = std::make_unique<LSM::SavedStream>(unpack_state(recorder->saved_state));
   if (settings.records_slip()) make_grid(saved.get());
-  if (saved) on_rank_0([&] { stream->set_state(*saved); });
+  if (saved)
+    on_rank_0([&] {
+      stream->set_state(*saved);
+    });
   change_dt();
   on_rank_0([this, from_restart] {
     stream->begin_files(update->ntimestep, from_restart, sources.scene(), clock, restart_files());
@@ -165,7 +173,7 @@ void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
   const double time = time_of(step);
   const bool plane = domain->dimension == 3;
   const double bins = domain->prd[0] / settings.bin_width *
-                      (plane ? std::max(1.0, domain->prd[2] / settings.bin_width) : 1.0);
+      (plane ? std::max(1.0, domain->prd[2] / settings.bin_width) : 1.0);
   constexpr auto most = LSM::SlipHistoryInfo::most_bins;
   if (bins > static_cast<double>(most))
     error->all(FLERR,
@@ -189,7 +197,9 @@ void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
                    id);
   fault.begin(fault_begun ? saved->continued(grid) : grid, settings.forward);
   if (fault_begun && comm->me == 0) fault.sums() = saved->open_sums;
-  on_rank_0([this] { stream->set_grid(fault.grid()); });
+  on_rank_0([this] {
+    stream->set_grid(fault.grid());
+  });
 }
 
 // performs a task on rank 0 with the stream, if there is one; an error is kept for
@@ -285,7 +295,9 @@ void ComputeLSMEvents::change_dt()
   set_memory();
   if (settings.records_slip()) make_grid(nullptr);
   if (settings.records_slip() && opened) begin_fault();
-  on_rank_0([this, ratio] { stream->change_picker(settings.picker, ratio); });
+  on_rank_0([this, ratio] {
+    stream->change_picker(settings.picker, ratio);
+  });
 }
 
 double ComputeLSMEvents::time_of(bigint step) const
@@ -324,7 +336,10 @@ void ComputeLSMEvents::record()
   sampler.add(step, sources.pe());
   last_recorded = step;
   if (sampler.full()) start_gather();
-  if (guard.due(step)) guard.check_step(ledger, [this] { return energies(); });
+  if (guard.due(step))
+    guard.check_step(ledger, [this] {
+      return energies();
+    });
 }
 
 // sends the filled block to rank 0, which processes it when the next block is full
@@ -337,8 +352,11 @@ void ComputeLSMEvents::start_gather()
 void ComputeLSMEvents::finish_gather()
 {
   if (!gather.finish()) return;
-  on_rank_0(
-      [this] { stream->add_block(gather.block(), [this](bigint step) { return time_of(step); }); });
+  on_rank_0([this] {
+    stream->add_block(gather.block(), [this](bigint step) {
+      return time_of(step);
+    });
+  });
   if (comm->me == 0)
     progress.show(update, screen, options.progress, gather.block().first + gather.block().count - 1,
                   stream->drops().events);
@@ -349,7 +367,9 @@ void ComputeLSMEvents::flush()
 {
   start_gather();
   finish_gather();
-  on_rank_0([this] { stream->flush(); });
+  on_rank_0([this] {
+    stream->flush();
+  });
   stop_on_failure();
 }
 
@@ -360,7 +380,9 @@ void ComputeLSMEvents::end_run()
     LSM::SlipRecorder until_now = fault;
     until_now.add(faces());
     const std::vector<double> open_sums = sum_on_0(until_now);
-    on_rank_0([&] { stream->end_run(update->ntimestep, open_sums); });
+    on_rank_0([&] {
+      stream->end_run(update->ntimestep, open_sums);
+    });
   }
   LSMMover::complete_steps(modify);
   ledger.end_run(update->ntimestep, ledger.begun() ? energies() : LSM::EnergyTerms());
@@ -398,7 +420,9 @@ void ComputeLSMEvents::begin_fault()
   const std::vector<double> sums = sum_on_0(fault);
   fault.clear();
   const double pe = total_pe();
-  on_rank_0([&] { stream->begin_fault(pe, sums); });
+  on_rank_0([&] {
+    stream->begin_fault(pe, sums);
+  });
   stop_on_failure();
 }
 
@@ -421,10 +445,14 @@ void ComputeLSMEvents::leave_out_jump()
     MPI_Bcast(&jump, 1, MPI_DOUBLE, 0, world);
     if (LSM::is_jump(jump, fabs(pe), floor)) {
       change = jump;
-      on_rank_0([&] { stream->leave_out_jump(jump); });
+      on_rank_0([&] {
+        stream->leave_out_jump(jump);
+      });
     }
   }
-  const double jump = ledger.leave_out_jump(step, floor, [this] { return energies(); });
+  const double jump = ledger.leave_out_jump(step, floor, [this] {
+    return energies();
+  });
   if (jump != 0.0) change = jump;
   if (change != 0.0 && comm->me == 0)
     error->warning(FLERR,

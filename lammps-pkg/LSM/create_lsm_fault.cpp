@@ -73,10 +73,14 @@ void CreateLSMFault::command(int narg, char **arg)
   LSM::LatticeSettings regular;
   if (lattice) {
     parse(narg, arg, regular);
-    pack(packing, [&regular] { return LSM::make_lattice(regular); });
+    pack(packing, [&regular] {
+      return LSM::make_lattice(regular);
+    });
   } else {
     parse(narg, arg, random);
-    pack(packing, [&random] { return LSM::make_packing(random); });
+    pack(packing, [&random] {
+      return LSM::make_packing(random);
+    });
   }
   const double packed = platform::walltime();
 
@@ -117,8 +121,9 @@ void CreateLSMFault::check_setup()
   const bool as_needed =
       lj[1] == 0.0 && lj[2] == 1.0 && lj[3] == 1.0 && coul[2] == 1.0 && coul[3] == 1.0;
   if (comm->me == 0 && !as_needed)
-    error->warning(FLERR, "Linked particles must not be contact pairs and all others must be: "
-                          "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
+    error->warning(FLERR,
+                   "Linked particles must not be contact pairs and all others must be: "
+                   "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
 }
 
 void CreateLSMFault::check_box_and_dimension()
@@ -128,8 +133,9 @@ void CreateLSMFault::check_box_and_dimension()
       error->all(FLERR, "Create_lsm_fault lattice cubic requires dimension 3, found dimension {}",
                  domain->dimension);
     if (domain->yperiodic)
-      error->all(FLERR, "Create_lsm_fault lattice cubic requires a boundary that is not periodic "
-                        "in y, and in x and z f or p");
+      error->all(FLERR,
+                 "Create_lsm_fault lattice cubic requires a boundary that is not periodic "
+                 "in y, and in x and z f or p");
     return;
   }
   if (domain->dimension != 2)
@@ -338,11 +344,14 @@ template <class Command> static void with_words(const std::string &line, Command
 void CreateLSMFault::create_box(const std::string &limits, int link_types, int bonds_per_atom)
 {
   const std::string region = "create_lsm_fault_box";
-  with_words(region + " block " + limits + " units box",
-             [this](int narg, char **arg) { domain->add_region(narg, arg); });
+  with_words(region + " block " + limits + " units box", [this](int narg, char **arg) {
+    domain->add_region(narg, arg);
+  });
   with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region, link_types,
                          bonds_per_atom),
-             [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
+             [this](int narg, char **arg) {
+               CreateBox(lmp).command(narg, arg);
+             });
   domain->delete_region(region);
 
   // the order of the particles suits links and contacts better than that of LAMMPS' sorting

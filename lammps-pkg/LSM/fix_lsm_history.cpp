@@ -35,9 +35,10 @@ void FixLSMHistory::init()
                oneatom, pgsize, neighbor->oneatom, neighbor->pgsize);
   FixNeighHistory::init();
   if (update->whichflag == 2)
-    error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on "
-                      "the path, so there is no "
-                      "energy to be minimized; use pair style lsm/free, or a run with viscosity");
+    error->all(FLERR,
+               "Pair style lsm/friction does not work with minimize: friction depends on "
+               "the path, so there is no "
+               "energy to be minimized; use pair style lsm/free, or a run with viscosity");
   if (LSMScene::is_rerun(lmp))
     error->all(FLERR,
                "Pair style lsm/friction does not work with rerun: snapshots do not hold the "

@@ -44,7 +44,9 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   const auto set = [&](int lo, int hi) {
     std::fill(&nu[lo], &nu[hi] + 1, in.number(LSM::Must::not_negative));
   };
-  const auto set_all = [&] { set(1, atom->ntypes); };
+  const auto set_all = [&] {
+    set(1, atom->ntypes);
+  };
   const auto set_types = [&] {
     int lo, hi;
     utils::bounds(FLERR, in.text(), 1, atom->ntypes, lo, hi, error);
@@ -63,8 +65,9 @@ FixLSMNVE::~FixLSMNVE()
 
 std::string FixLSMNVE::viscosity() const
 {
-  const bool same =
-      std::all_of(nu.begin() + 1, nu.end(), [this](double value) { return value == nu[1]; });
+  const bool same = std::all_of(nu.begin() + 1, nu.end(), [this](double value) {
+    return value == nu[1];
+  });
   std::string text = LSM::text::number(nu[1]);
   for (size_t itype = 2; !same && itype < nu.size(); itype++)
     text += " " + LSM::text::number(nu[itype]);

@@ -30,8 +30,9 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   has_output(&work_mine, 10);
 
   if (narg < 5)
-    error->all(FLERR, "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
-                      "keyword value ...'");
+    error->all(FLERR,
+               "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
+               "keyword value ...'");
   for (int p : {LOWER, UPPER}) {
     plate[p].group = group->find(arg[3 + p]);
     if (plate[p].group < 0)
@@ -51,14 +52,21 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   };
   in.read_all({{"velocity", &speed},
                {"ramp", &ramp, Must::not_negative},
-               {"stress", LSM::Action{1, [&] { hold(true); }}},
+               {"stress",
+                LSM::Action{1,
+                            [&] {
+                              hold(true);
+                            }}},
                {"stressramp", &stress_ramp, Must::not_negative},
                {"damping", &damping, Must::not_negative},
                {"impedance", &impedance, Must::not_negative},
-               {"position", LSM::Action{0, [&] { hold(false); }}}});
+               {"position", LSM::Action{0, [&] {
+                                          hold(false);
+                                        }}}});
   if (!has_normal)
-    error->all(FLERR, "Fix lsm/plates needs either 'stress value' (normal stress held) or "
-                      "'position' (plates do not move across the fault)");
+    error->all(FLERR,
+               "Fix lsm/plates needs either 'stress value' (normal stress held) or "
+               "'position' (plates do not move across the fault)");
 }
 
 FixLSMPlates::~FixLSMPlates()
@@ -86,8 +94,9 @@ void FixLSMPlates::init()
   LSMScene::require_verlet(lmp, "Fix lsm/plates");
   LSMScene::require_plain_units(lmp, "Fix lsm/plates");
   if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
-    error->all(FLERR, "Fix lsm/plates needs a box that is periodic in x and z and not in y "
-                      "(boundary p f p)");
+    error->all(FLERR,
+               "Fix lsm/plates needs a box that is periodic in x and z and not in y "
+               "(boundary p f p)");
 
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
     error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
@@ -140,8 +149,9 @@ void FixLSMPlates::post_neighbor()
       if (atom->mask[i] & p.bit) p.atoms.push_back(i);
 
     // sorted by ID, so that a run that continues from a restart file sums in the same order
-    std::sort(p.atoms.begin(), p.atoms.end(),
-              [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
+    std::sort(p.atoms.begin(), p.atoms.end(), [this](int a, int b) {
+      return atom->tag[a] < atom->tag[b];
+    });
   }
 }
 

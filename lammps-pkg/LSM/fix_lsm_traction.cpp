@@ -34,9 +34,10 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
   has_output(&work_outside);
 
   if (narg < 7)
-    error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
-                      "NORMAL SHEAR [share diameter|spacing] [per/mass A] [dip SHEAR]', tractions "
-                      "as numbers or variables v_name");
+    error->all(FLERR,
+               "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
+               "NORMAL SHEAR [share diameter|spacing] [per/mass A] [dip SHEAR]', tractions "
+               "as numbers or variables v_name");
   LSMKeywordReader in(lmp, "Fix lsm/traction", 7, narg, arg);
   in.read_all({{"share", LSM::Words{&spaced, {"diameter", "spacing"}}},
                {"per/mass", &per_mass, LSM::Must::positive},
@@ -129,8 +130,10 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   double **x = atom->x;
   int found = -1;
   const double widest = ASIDE * (atom->radius[i] + widest_radius);
-  const auto first = std::lower_bound(others.begin(), others.end(), x[i][0] - widest,
-                                      [x](int j, double least) { return x[j][0] < least; });
+  const auto first =
+      std::lower_bound(others.begin(), others.end(), x[i][0] - widest, [x](int j, double least) {
+        return x[j][0] < least;
+      });
   for (auto at = first; at != others.end() && x[*at][0] <= x[i][0] + widest; ++at) {
     const int j = *at;
     const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1];
@@ -162,9 +165,9 @@ std::vector<double> FixLSMTraction::shares(int s) const
   std::vector<double> share(atom->nlocal, 0.0), mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
-    share[i] = per_mass > 0.0           ? per_mass * atom->rmass[i]
-               : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
-                                        : 2.0 * radius[i];
+    share[i] = per_mass > 0.0    ? per_mass * atom->rmass[i]
+        : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
+                                 : 2.0 * radius[i];
     mine.push_back(atom->x[i][0]);
   }
   if (!spaced) return share;
@@ -219,8 +222,9 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   widest_radius = 0.0;
   for (auto &of_side : face) {
     for (const int i : of_side) widest_radius = MAX(widest_radius, radius[i]);
-    std::stable_sort(of_side.begin(), of_side.end(),
-                     [this](int i, int j) { return atom->x[i][0] < atom->x[j][0]; });
+    std::stable_sort(of_side.begin(), of_side.end(), [this](int i, int j) {
+      return atom->x[i][0] < atom->x[j][0];
+    });
   }
 
   for (int i = 0; i < atom->nlocal; i++) {
@@ -254,8 +258,8 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
       const double dz = load[DIP] ? atom->x[i][2] - atom->x[j][2] : 0.0;
       const double r = sqrt(dx * dx + dy * dy + dz * dz), overlap = radius[i] + radius[j] - r;
       const double more = overlap > TOUCHING * radius[i]
-                              ? 0.5 * load[NORMAL][i] / k
-                              : 0.5 * (r + load[NORMAL][i] / k - radius[i] - radius[j]);
+          ? 0.5 * load[NORMAL][i] / k
+          : 0.5 * (r + load[NORMAL][i] / k - radius[i] - radius[j]);
       if (fabs(more) > 0.05 * radius[i])
         error->one(
             FLERR,

@@ -69,8 +69,9 @@ void FixLSMVelocity::init()
   const auto contacts = LSMScene::contact_styles(force);
   const auto *const links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
   used = (links && links->is_viscous()) ||
-         std::any_of(contacts.begin(), contacts.end(),
-                     [](const PairLSMFree *of) { return of->is_viscous(); });
+      std::any_of(contacts.begin(), contacts.end(), [](const PairLSMFree *of) {
+           return of->is_viscous();
+         });
   if (!used || update->whichflag != 1) return;
   for (const auto &leap : modify->get_fix_by_style("^lsm/leap"))
     error->all(FLERR,
@@ -80,8 +81,9 @@ void FixLSMVelocity::init()
   extrapolated = 0;
   for (const auto *mover : lsm_fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
   if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(lmp))
-    error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
-                      "velocities to the time of the forces");
+    error->all(FLERR,
+               "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
+               "velocities to the time of the forces");
 }
 
 // If the velocities are still those of the end of the previous run, or of the restart file, the

@@ -37,7 +37,9 @@ void LSMRun::command(int narg, char **arg)
                {"series", &series},
                {"ruptures", &ruptures},
                {"history", &history},
-               {"note", LSM::Action{1, [&] { further_variables.emplace_back(in.text()); }}}});
+               {"note", LSM::Action{1, [&] {
+                                      further_variables.emplace_back(in.text());
+                                    }}}});
   in.require({"prefix", "every"});
   earlier = resume || !in.has("overwrite") ? KEEP : overwrite ? REMOVE : REFUSE;
   if (!series) unused.push_back(prefix + ".pe.bin");

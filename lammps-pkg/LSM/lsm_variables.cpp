@@ -144,7 +144,9 @@ void LSMVariables::find_restart(const LSMVariableTable &table)
     }
   }
   if (restart.empty()) return;
-  const std::string problem = lsm_on_0(world, [this] { saved = LSM::check_restart(restart); });
+  const std::string problem = lsm_on_0(world, [this] {
+    saved = LSM::check_restart(restart);
+  });
   if (!problem.empty()) error->all(FLERR, "lsm_variables: {}", problem);
   std::string lines;
   for (const auto &[key, value] : saved) lines += key + " " + value + "\n";
@@ -178,21 +180,25 @@ bool LSMVariables::follows_others(const LSMVariableTable &table, const LSMSceneV
     const std::string *const found = LSM::files::find(saved, name);
     return found ? *found : value_now(name);
   };
-  const auto now = [this](const std::string &name) { return value_now(name); };
+  const auto now = [this](const std::string &name) {
+    return value_now(name);
+  };
   const std::string &text = table.default_of(one, then);
   const auto names = LSMVariableTable::named_in(text);
-  return (text != table.default_of(one, now) || std::any_of(names.begin(), names.end(),
-                                                            [&](const std::string &name) {
-                                                              return !same(value_now(name),
-                                                                           then(name));
-                                                            })) &&
-         same(evaluated(LSMVariableTable::filled(text, then)), value);
+  return (text != table.default_of(one, now) ||
+          std::any_of(names.begin(), names.end(),
+                      [&](const std::string &name) {
+                        return !same(value_now(name), then(name));
+                      })) &&
+      same(evaluated(LSMVariableTable::filled(text, then)), value);
 }
 
 // a variable that exists already was set on the command line, or by a script that includes this one
 void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable &one)
 {
-  const auto now = [this](const std::string &name) { return value_now(name); };
+  const auto now = [this](const std::string &name) {
+    return value_now(name);
+  };
   const std::string *const then = saved_value(one);
   std::string value;
   if (is_given(one.name)) {
@@ -242,7 +248,9 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
 
 void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
 {
-  const auto now = [this](const std::string &name) { return value_now(name); };
+  const auto now = [this](const std::string &name) {
+    return value_now(name);
+  };
   for (const auto &[name, others] : table.replaced)
     for (const std::string &other : others) {
       if (!is_given(name) || !is_given(other)) continue;
@@ -279,8 +287,9 @@ void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
 void LSMVariables::refuse_earlier(const std::string &name) const
 {
   if (!restart.empty() || value_now("overwrite") == "yes") return;
-  const std::string file = LSMVariableTable::filled(
-      name, [this](const std::string &variable) { return value_now(variable); });
+  const std::string file = LSMVariableTable::filled(name, [this](const std::string &variable) {
+    return value_now(variable);
+  });
   std::string there;
   if (comm->me == 0 && LSM::files::holds_data(file)) there = file;
   lsm_share(there, world);

@@ -181,8 +181,9 @@ void PairLSMFree::settings(int narg, char ** /*arg*/)
 void PairLSMFree::parse_law(int narg, char ** /*arg*/)
 {
   if (narg != 0)
-    error->all(FLERR, "Pair style lsm/free expects 'pair_coeff I J k [kelvin-voigt TIME]' or "
-                      "'pair_coeff I J off'");
+    error->all(FLERR,
+               "Pair style lsm/free expects 'pair_coeff I J k [kelvin-voigt TIME]' or "
+               "'pair_coeff I J off'");
 }
 
 // "pair_coeff I J off": these types never touch; costs nothing per step
@@ -224,9 +225,10 @@ void PairLSMFree::init_style()
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
   if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
-    error->all(FLERR, "Pair style lsm/* does not work under hybrid/scaled, as recorded energies "
-                      "and the time-step check "
-                      "would not be scaled; use pair_style hybrid or hybrid/overlay");
+    error->all(FLERR,
+               "Pair style lsm/* does not work under hybrid/scaled, as recorded energies "
+               "and the time-step check "
+               "would not be scaled; use pair_style hybrid or hybrid/overlay");
   if (update->whichflag && (!compute_flag || !force->pair->compute_flag))
     error->all(
         FLERR,
@@ -236,7 +238,7 @@ void PairLSMFree::init_style()
   // pairs stay in the list, too
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
-             (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
+      (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
   near.init(active, screened, *this);
   if (update->whichflag) {
     if (!under_hybrid) check_special();

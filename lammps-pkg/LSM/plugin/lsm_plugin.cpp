@@ -72,14 +72,16 @@ std::string name_of(int number)
   static const char *const months[] = {"?",   "Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                        "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
   return std::to_string(number % 100) + " " + months[number / 100 % 100 % 13] + " " +
-         std::to_string(number / 10000);
+      std::to_string(number / 10000);
 }
 
 std::string sizes(int big, int tag, int image)
 {
-  const auto bits = [](int bytes) { return std::to_string(8 * bytes); };
+  const auto bits = [](int bytes) {
+    return std::to_string(8 * bytes);
+  };
   return "bigint, tagint and imageint of " + bits(big) + ", " + bits(tag) + " and " + bits(image) +
-         " bits";
+      " bits";
 }
 
 /// What keeps the styles from this LAMMPS, or "".
@@ -94,13 +96,13 @@ std::string mismatch(void *lmp)
   const std::string expected = built_for;
   if (found != expected)
     return "it was compiled for LAMMPS " + expected + ", but this is LAMMPS " + found +
-           "; compile it with the source of this LAMMPS";
+        "; compile it with the source of this LAMMPS";
   const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"),
             image = setting(lmp, "imageint");
   if (big != sizeof(bigint) || tag != sizeof(tagint) || image != sizeof(imageint))
     return "it was compiled for " + sizes(sizeof(bigint), sizeof(tagint), sizeof(imageint)) +
-           ", but this LAMMPS has " + sizes(big, tag, image) +
-           "; compile it with the same LAMMPS_SIZES";
+        ", but this LAMMPS has " + sizes(big, tag, image) +
+        "; compile it with the same LAMMPS_SIZES";
   return {};
 }
 
@@ -109,7 +111,7 @@ bool compiled_in(LAMMPS *lmp)
 {
   const auto found = lmp->force->pair_map->find("lsm/free");
   return found != lmp->force->pair_map->end() &&
-         found->second != reinterpret_cast<Force::PairCreator>(&make<Pair, PairLSMFree>);
+      found->second != reinterpret_cast<Force::PairCreator>(&make<Pair, PairLSMFree>);
 }
 
 }    // namespace

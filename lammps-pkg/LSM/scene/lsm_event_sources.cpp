@@ -39,11 +39,13 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
   const std::string &id = settings_.name;
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
-    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
-                      "run; uncompute it first");
+    error->all(FLERR,
+               "Compute lsm/events does not work with minimize: it records the steps of a "
+               "run; uncompute it first");
   if (LSMScene::is_rerun(lmp))
-    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
-                      "use thermo keyword pe for the energies of snapshots");
+    error->all(FLERR,
+               "Compute lsm/events does not work with rerun: it records the steps of a run; "
+               "use thermo keyword pe for the energies of snapshots");
 
   // the strain of links is checked before particles move to other ranks
   for (const auto &ifix : modify->get_fix_list()) {
@@ -74,8 +76,9 @@ void LSMEventSources::find(bool ledger)
   links_ = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
   const auto contacts = LSMScene::contact_styles(force);
   if (!links_ && contacts.empty())
-    error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
-                      "lsm/friction");
+    error->all(FLERR,
+               "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
+               "lsm/friction");
   if (settings_.records_slip() && !force->pair_match("lsm/friction", 1))
     error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", settings_.asked_by());
 
@@ -225,7 +228,7 @@ LSM::EnergyTerms LSMEventSources::energies() const
   // plates count with their motion across the fault only, as the energy of the driven motion is no
   // part of the balance
   terms.kinetic = lsm_total(LSMScene::kinetic(atom, plates_ ? plates_->moved_bits() : 0), world) +
-                  (plates_ ? plates_->kinetic() : 0.0);
+      (plates_ ? plates_->kinetic() : 0.0);
   terms.potential = lsm_total(potential, world);
   terms.friction = lsm_total(friction, world);
   terms.viscosity = lsm_total(viscosity, world);

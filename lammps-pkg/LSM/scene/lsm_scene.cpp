@@ -65,8 +65,9 @@ namespace LSMScene {
   {
     const auto &fixes = modify->get_fix_list();
     return std::any_of(fixes.begin(), fixes.end(), [modify](Fix *fix) {
-      return is_foreign(fix) && ((modify->get_fix_mask(fix) & ~FixConst::END_OF_STEP) != 0 ||
-                                 utils::strmatch(fix->style, "^ave/grid"));
+      return is_foreign(fix) &&
+          ((modify->get_fix_mask(fix) & ~FixConst::END_OF_STEP) != 0 ||
+           utils::strmatch(fix->style, "^ave/grid"));
     });
   }
 

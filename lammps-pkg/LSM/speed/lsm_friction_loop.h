@@ -172,8 +172,9 @@ namespace LSMFriction {
         for (int n = 0; n < LANES; n++) {
           const double del[] = {delx[n], dely[n]};
           const Geometry g(del);
-          const auto c =
-              LSM::coefficients_of<Law>([this, n](std::size_t p) { return coefficients[p][n]; });
+          const auto c = LSM::coefficients_of<Law>([this, n](std::size_t p) {
+            return coefficients[p][n];
+          });
           const LSM::FrictionContact contact{
               LSM::contact_normal_force(k[n], g.r, r0[n]), h[Is::XI][n],
               displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]), time,
@@ -232,8 +233,8 @@ namespace LSMFriction {
     {
       const double fn = LSM::contact_normal_force(scene.k.at(site.types), r, site.r0);
       return scene.viscous && !apart && r > 0.0
-                 ? fn + scene.host.drag(site, r, fn, both ? 1.0 : 0.5)
-                 : fn;
+          ? fn + scene.host.drag(site, r, fn, both ? 1.0 : 0.5)
+          : fn;
     }
 
     [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
@@ -252,8 +253,9 @@ namespace LSMFriction {
         keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;
       }
-      const auto c = LSM::coefficients_of<Law>(
-          [this, &site](std::size_t p) { return scene.coefficients[p].at(site.types); });
+      const auto c = LSM::coefficients_of<Law>([this, &site](std::size_t p) {
+        return scene.coefficients[p].at(site.types);
+      });
 
       LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
       Along<DIM> dxi{};
@@ -300,7 +302,9 @@ namespace LSMFriction {
       }
       const double *const xi = x + 3 * static_cast<size_t>(site.i);
       const double *const xj = x + 3 * static_cast<size_t>(site.j);
-      const auto on_lower = [&](int c) { return -site.across * (apart ? 0.0 : push.f[c]); };
+      const auto on_lower = [&](int c) {
+        return -site.across * (apart ? 0.0 : push.f[c]);
+      };
       LSM::FaultContact one = {0.5 * (xi[0] + xj[0]), s.dissipated, on_lower(0), share};
       if constexpr (DIM == 3) {
         one.z = 0.5 * (xi[2] + xj[2]);

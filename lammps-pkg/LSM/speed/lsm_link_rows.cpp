@@ -50,8 +50,9 @@ namespace LSMLinkRows {
     const double first = of.rest[rows[0].first];
     const bool once =
         share && !filled_up && std::all_of(rows.begin(), rows.end(), [&](const Row &r) {
-          return std::all_of(&of.rest[r.first], &of.rest[r.first] + r.length,
-                             [first](double rest) { return rest == first; });
+          return std::all_of(&of.rest[r.first], &of.rest[r.first] + r.length, [first](double rest) {
+            return rest == first;
+          });
         });
     while (rows.size() % LANES) rows.push_back({rows.back().i, rows.back().first, 0});
     o.stacks.push_back({static_cast<int>(rows.size()) / LANES, length, filled_up,

@@ -34,14 +34,15 @@ static constexpr std::size_t MOST = 64;
 double LSMListPatch::find_margin(const NeighList &of) const
 {
   bool simple = update->whichflag == 1 && utils::strmatch(update->integrate_style, "^verlet") &&
-                !force->newton_pair && !domain->box_change && !domain->triclinic &&
-                comm->mode == Comm::SINGLE && comm->style == Comm::BRICK && !neighbor->exclude &&
-                !neighbor->includegroup && neighbor->dist_check && !of.copy &&
-                atom->molecular != Atom::TEMPLATE;
+      !force->newton_pair && !domain->box_change && !domain->triclinic &&
+      comm->mode == Comm::SINGLE && comm->style == Comm::BRICK && !neighbor->exclude &&
+      !neighbor->includegroup && neighbor->dist_check && !of.copy &&
+      atom->molecular != Atom::TEMPLATE;
   for (int n = 0; n < neighbor->nlist; n++) {
     const NeighList *const other = neighbor->lists[n];
-    simple = simple && (!other || other == &of ||
-                        (other == of.listskip && other->requestor_type == NeighList::NONE));
+    simple = simple &&
+        (!other || other == &of ||
+         (other == of.listskip && other->requestor_type == NeighList::NONE));
   }
   if (!simple || LSMScene::may_rely_on_skin(modify)) return 0.0;
 
@@ -219,5 +220,7 @@ bool LSMListPatch::is_excluded(int i, int j) const
 bool LSMListPatch::is_listed(int i, int j) const
 {
   const int *const first = list->firstneigh[i], *const end = first + list->numneigh[i];
-  return std::any_of(first, end, [j](int entry) { return (entry & NEIGHMASK) == j; });
+  return std::any_of(first, end, [j](int entry) {
+    return (entry & NEIGHMASK) == j;
+  });
 }

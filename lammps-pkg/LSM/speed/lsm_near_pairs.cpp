@@ -58,7 +58,7 @@ void LSMNearPairs::update(NeighList &of, const double *radii)
   } else {
     // Strays are not looked for if so few pairs are listed that all of them are kept.
     const auto &added = what == Due::choice ? patch.look_at_all(0)
-                        : x_chosen.empty()  ? patch.look_at_all(lmp_->atom->nlocal)
+        : x_chosen.empty()                  ? patch.look_at_all(lmp_->atom->nlocal)
                                             : patch.look_at(strays);
     for (const LSMListPatch::Added &pair : added) {
       if (store) store->add_pair(pair.i, pair.jj);
@@ -257,7 +257,7 @@ void LSMNearPairs::write_states()
       const double *const d = vector(place);
       const double square = dim == 3 ? square_of<3>(d) : square_of<2>(d);
       const bool is_near = square <= state_reach * state_reach * pair.r0 * pair.r0 &&
-                           !(screened && is_left_out(place));
+          !(screened && is_left_out(place));
       dim == 3 ? keep_near<3>(is_near, d, touch, h) : keep_near<2>(is_near, d, touch, h);
     }
     std::copy_n(h, state_size, store->values_of(pair.i, pair.jj));
@@ -271,5 +271,5 @@ bool LSMNearPairs::is_left_out(int place) const
   const int *const type = lmp_->atom->type;
   const int entry = list->firstneigh[pair.i][pair.jj];
   return !(*active)[type[pair.i]][type[pair.j]] ||
-         lmp_->force->special_lj[entry >> SBBITS & 3] == 0.0;
+      lmp_->force->special_lj[entry >> SBBITS & 3] == 0.0;
 }

@@ -24,7 +24,7 @@ void LSMTravel::look_for_movers()
 const std::vector<double> &LSMTravel::since_last()
 {
   const bool follows = !update->setupflag && update->ntimestep == step + 1 &&
-                       update->firststep == first_step && update->laststep == last_step;
+      update->firststep == first_step && update->laststep == last_step;
   step = update->ntimestep;
   first_step = update->firststep;
   last_step = update->laststep;

@@ -52,7 +52,9 @@ Keywords LSMEventOptions::keywords(LSMKeywordReader &in, std::string &prefix)
       in.stop(std::string("picker is '") + in.text() + "', but must be " +
               LSM::choices(events.picker.reading));
   };
-  const auto parameter = [this, &in] { events.parameters.emplace_back(in.text(1), in.text(2)); };
+  const auto parameter = [this, &in] {
+    events.parameters.emplace_back(in.text(1), in.text(2));
+  };
   const auto groups = [&in](LSM::TwoSides &two) {
     two = {in.text(1), in.text(2)};
     if (two.lower == two.upper)
@@ -70,8 +72,16 @@ Keywords LSMEventOptions::keywords(LSMKeywordReader &in, std::string &prefix)
           {"tangential", &events.tangential},
           {"location", &events.location},
           {"fraction", &events.fraction, Must::fraction},
-          {"faces", Action{2, [this, groups] { groups(events.faces); }}},
-          {"sides", Action{2, [this, groups] { groups(events.sides); }}},
+          {"faces",
+           Action{2,
+                  [this, groups] {
+                    groups(events.faces);
+                  }}},
+          {"sides",
+           Action{2,
+                  [this, groups] {
+                    groups(events.sides);
+                  }}},
           {"bin", &events.bin_width, Must::positive},
           {"interval", &events.interval, Must::positive},
           {"modulus", &events.modulus, Must::positive},

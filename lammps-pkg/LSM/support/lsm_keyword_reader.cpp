@@ -45,7 +45,11 @@ bool LSMKeywordReader::read(const LSM::Keywords &table)
     if (key_ != keyword.name) continue;
     const auto *const action = std::get_if<LSM::Action>(&keyword.value);
     need(action ? action->values : keyword.second ? 2 : 1);
-    std::visit([&](const auto &to) { take(to, keyword.must); }, keyword.value);
+    std::visit(
+        [&](const auto &to) {
+          take(to, keyword.must);
+        },
+        keyword.value);
     if (keyword.second) *keyword.second = number(keyword.must, 2);
     return true;
   }

@@ -17,7 +17,9 @@ using LSM::Parameter;
 template <class Law> static auto from(const double *values)
 {
   static_assert(std::size(Law::parameters) <= LSMLawTable::MAX_PARAMETERS, "there is no room");
-  return LSM::coefficients_of<Law>([values](std::size_t n) { return values[n]; });
+  return LSM::coefficients_of<Law>([values](std::size_t n) {
+    return values[n];
+  });
 }
 
 template <class Law> static LSMLaw entry()
@@ -28,8 +30,12 @@ template <class Law> static LSMLaw entry()
           Law::state_size,
           Law::needs_time,
           Law::named,
-          [](const double *values) { return Law::fits(from<Law>(values)); },
-          [](const double *values, double *state) { Law::begin(from<Law>(values), state); }};
+          [](const double *values) {
+            return Law::fits(from<Law>(values));
+          },
+          [](const double *values, double *state) {
+            Law::begin(from<Law>(values), state);
+          }};
 }
 
 const std::vector<LSMLaw> &LSMLawTable::all()

@@ -34,9 +34,9 @@ class LSMProgress {
       if (screen) {
         fprintf(screen, "About %.*f %s to go: " BIGINT_FORMAT " steps of %.3g ms\n",
                 left < 6000 ? 0 : 1, left < 120 ? left : left / (left < 6000 ? 60 : 3600),
-                left < 120    ? "seconds"
-                : left < 6000 ? "minutes"
-                              : "hours",
+                left < 120        ? "seconds"
+                    : left < 6000 ? "minutes"
+                                  : "hours",
                 steps, 1000.0 * seconds_of_step);
         fflush(screen);
       }

@@ -56,14 +56,14 @@ std::string LSMSceneVariable::expected(const std::string &value, const std::stri
 {
   if (accepted == "file" || accepted == RESTART_FILE || accepted == SCENE)
     return !value.empty() && value.front() != '-' && consists_of(value, "._-+=,@:/~")
-               ? ""
-               : "a file name of letters, digits and any of . _ - + = , @ : / ~ that does not "
-                 "begin with "
-                 "- (./-name is accepted)";
+        ? ""
+        : "a file name of letters, digits and any of . _ - + = , @ : / ~ that does not "
+          "begin with "
+          "- (./-name is accepted)";
   if (accepted == "text")
     return consists_of(value, "._-+=,@:/~* ")
-               ? ""
-               : "words of letters, digits and any of . _ - + = , @ : / ~ *";
+        ? ""
+        : "words of letters, digits and any of . _ - + = , @ : / ~ *";
 
   double number = 0.0;
   const bool is_number = LSM::text::parse(value, number) && std::isfinite(number);
@@ -76,12 +76,12 @@ std::string LSMSceneVariable::expected(const std::string &value, const std::stri
   if (is_bound(accepted, bound, least)) {
     const bool whole = bound[1].matched;
     const bool good = is_number && (bound[2] == ">" ? number > least : number >= least) &&
-                      (!whole || number == std::floor(number));
+        (!whole || number == std::floor(number));
     return good ? ""
-                : (whole             ? "a whole number of at least "
-                   : bound[2] == ">" ? "a number above "
-                                     : "a number of at least ") +
-                      bound[3].str();
+                : (whole                 ? "a whole number of at least "
+                       : bound[2] == ">" ? "a number above "
+                                         : "a number of at least ") +
+            bound[3].str();
   }
   const std::vector<std::string> words = split(accepted, ',');
   return std::count(words.begin(), words.end(), value) ? "" : LSM::either(words);
@@ -163,8 +163,10 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
 
 const LSMSceneVariable *LSMVariableTable::find(const std::string &name) const
 {
-  const auto at = std::find_if(variables.begin(), variables.end(),
-                               [&](const LSMSceneVariable &one) { return one.name == name; });
+  const auto at =
+      std::find_if(variables.begin(), variables.end(), [&](const LSMSceneVariable &one) {
+        return one.name == name;
+      });
   return at == variables.end() ? nullptr : &*at;
 }
 
