@@ -24,7 +24,7 @@ import numpy as np
 
 from lsm.tables import header_of
 
-__all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "units", "Table"]
+__all__ = ["read_catalogue", "read_series", "read_slip", "rates", "spectrum", "units", "write_series", "Table"]
 
 LOADING = 8000  # time units that compression and first loading of a default fault take, in which PE rises
 # In packings by create_lsm_fault, in model units, as in postproc/statistics/units.h: speeds as measured
@@ -170,6 +170,42 @@ def read_series(path):
     step0 = _number(path, header, "step0", int)
     series["time"] = _number(path, header, "time0") + (stored["step"] - step0) * _number(path, header, "dt")
     return Table(series, header)
+
+
+def write_series(path, time, values, overwrite=False, **parameters):
+    """Writes a series of your own, whose drops `postproc pick` finds: values at equal intervals of time, and parameters for its header. A
+    sample is a step, from 0 on. \\raises ValueError for what is no series, FileExistsError unless overwrite; then nothing is written"""
+
+    def refuse(what):
+        raise ValueError(f"{path}: {what}")
+
+    try:
+        time, values = np.asarray(time, float), np.asarray(values, float)
+    except (TypeError, ValueError) as error:
+        refuse(f"{error}, expected numbers")
+    for name, row in ("time", time), ("value", values):
+        if row.ndim != 1:
+            refuse(f"{name}s of shape {row.shape}, expected one row")
+        if len(bad := np.flatnonzero(~np.isfinite(row))):
+            refuse(f"{name} {bad[0] + 1} is {row[bad[0]]}, expected a finite number")
+    if (n := len(time)) != len(values) or n < 2:
+        refuse(f"{n} times and {len(values)} values, expected as many" if n != len(values) else f"{n} time, expected at least 2")
+    if len(bad := np.flatnonzero(np.diff(time) <= 0)):
+        refuse(f"time {bad[0] + 2} is {time[bad[0] + 1]:g} after {time[bad[0]]:g}, expected increasing times")
+    dt = (time[-1] - time[0]) / (n - 1)
+    even = time[0] + dt * np.arange(n)
+    if (far := np.abs(time - even)).max() > 0.2 * dt:  # a log has rounded times
+        refuse(f"time {far.argmax() + 1} is {time[far.argmax()]:g}, expected {even[far.argmax()]:g}: samples at equal intervals")
+    head = dict(model="lsm", dt=repr(float(dt)), step0=0, time0=repr(float(time[0])), stride=1)
+    for key, value in parameters.items():
+        if key in head or key == "times" or not key.strip() or any(mark in key for mark in "=\n\r"):
+            refuse(f"parameter {key!r}, expected another name")
+        if len(str(value).splitlines()) != 1:
+            refuse(f"parameter {key!r} is {value!r}, expected one line")
+    lines = "".join(f"# {key} = {value}\n" for key, value in (head | parameters).items()).encode()
+    records = np.rec.fromarrays([np.arange(n), values], [("step", "<i8"), ("pe", "<f8")])
+    with open(path, "wb" if overwrite else "xb") as file:
+        file.write(b"lsm-pe-series-1\n" + struct.pack("<q", len(lines)) + lines + records.tobytes())
 
 
 def read_slip(path):

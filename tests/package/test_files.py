@@ -11,6 +11,7 @@ import sys
 import numpy as np
 import pytest
 
+from data_files import loading_with_drops, numbers, pick
 from programs import BUILD, SOURCE, run
 
 sys.path.insert(0, str(SOURCE / "python"))
@@ -135,6 +136,45 @@ def test_slip_of_a_run_begins_with_an_empty_record(work):
         lsm.read_slip("a.bin")
 
 
+def test_postproc_picks_a_series_of_ones_own(postproc):
+    """Every 0.25 time units from 100 on, with times rounded as in a log."""
+    stress, time = loading_with_drops(), 100 + 0.25 * np.arange(5000)
+    lsm.write_series("a.bin", np.round(25 * time) / 25, stress, length=40, sample="glass 7")
+    found = lsm.read_series("a.bin")
+    assert found["pe"].tolist() == stress.tolist() and np.allclose(found["time"], time, rtol=1e-4) and found["step"][-1] == 4999
+    assert found.header["length"] == "40" and found.header["sample"] == "glass 7"
+    lsm.write_series("a.bin", time, stress, overwrite=True)
+    assert "length" not in lsm.read_series("a.bin").header
+    run(postproc, "pick a.bin -o a.csv --memory-time 2.5")
+    wanted = pick("exponential", np.exp(-0.1), 0, np.arange(5000), time, stress)
+    assert len(wanted) > 40 and np.allclose(numbers("a.csv"), wanted, rtol=1e-12)
+
+
+UP = np.arange(3.0)
+
+
+@pytest.mark.parametrize("time, values, more, said", [
+    (UP, UP[:2], {}, "3 times and 2 values, expected as many"), (UP[:1], UP[:1], {}, "1 time, expected at least 2"),
+    (UP, np.ones((3, 1)), {}, r"values of shape \(3, 1\), expected one row"), (UP, [1, np.nan, 2], {}, "value 2 is nan, expected a finite number"),
+    ([0, np.inf, 2], UP, {}, "time 2 is inf, expected a finite number"), (UP[::-1], UP, {}, "time 2 is 1 after 2, expected increasing times"),
+    ([0, 1, 2.6], UP, {}, "time 2 is 1, expected 1.3: samples at equal intervals"), (UP, ["a", "b", "c"], {}, "expected numbers"),
+    (UP, UP, {"dt": 3}, "parameter 'dt', expected another name"), (UP, UP, {"a=b": 3}, "parameter 'a=b', expected"),
+    (UP, UP, {"length": "1\n2"}, r"parameter 'length' is '1\\n2', expected one line")])  # yapf: disable
+def test_series_that_cannot_be_written(work, time, values, more, said):
+    with pytest.raises(ValueError, match=f"^a.bin: .*{said}"):
+        lsm.write_series("a.bin", time, values, **more)
+    assert not list(work.iterdir())
+
+
+def test_no_file_is_replaced_by_a_series(work):
+    (work / "a.bin").write_text("precious")
+    with pytest.raises(FileExistsError, match="a.bin"):
+        lsm.write_series("a.bin", UP, UP)
+    with pytest.raises(ValueError, match="a.bin: "):
+        lsm.write_series("a.bin", UP, UP[:2], overwrite=True)
+    assert (work / "a.bin").read_text() == "precious"
+
+
 def series_of(pe, spacing=0.5):
     made = np.empty(len(pe), [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")])
     made["step"], made["time"], made["pe"] = np.arange(len(pe)), spacing * np.arange(len(pe)), pe
@@ -194,6 +234,8 @@ def page_results(lmp, tmp_path_factory):
     os.symlink(SOURCE / "inputs", folder / "inputs")
     if not (BUILD / "lib/liblammps.so").exists():
         pytest.skip("liblammps.so is not built")
+    stress = loading_with_drops(20000)
+    np.savetxt(folder / "shear.txt", np.column_stack([10 * np.arange(20000), stress]), header="Time-averaged data for fix shear\nTimeStep v_shear")
     code = "".join(re.findall(r"^```python\n(.*?)^```$", (SOURCE / "inputs/python.md").read_text(), re.S | re.M))
     code += """
 import numpy as np
@@ -203,7 +245,7 @@ assert np.allclose([drop[a] - drop[b] for a, b in zip(events["step_start"], even
 assert history["step_end"].max() <= 3100 and slip.shape == (int(history.header["bins"]),) and slip.mean() > 0
 assert (history["step_begin"][1:] == history["step_end"][:-1]).all() and velocity.shape == (len(history) - 1, slip.size)
 assert rates["events"].sum() == len(events) and np.isclose(rates["released"].sum(), events["size"].sum())
-assert len(spectrum) == 257 and (spectrum["density"] > 0).all()
+assert len(lsm.read_series("shear.bin")) == 20000 and len(spectrum) == 257 and (spectrum["density"] > 0).all()
 """
     (folder / "page.py").write_text(code)
     ran = subprocess.run([sys.executable, "page.py"], cwd=folder, env={**lmp.env, "PYTHONPATH": str(BUILD / "python")}, capture_output=True,
