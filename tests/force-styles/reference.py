@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the data files and the yaml files of this folder, without LAMMPS and without the package.
+"""Writes the data files and the yaml files of LAMMPS' testers, without LAMMPS and without the package.
 
 The reference values of LAMMPS' testers come from this program: an independent implementation of the laws in the pages of
 lammps-pkg/doc, over all pairs, with sums that are rounded once (math.fsum). README.md says how epsilon is found.
 
-usage: reference.py [FOLDER]
+usage: reference.py FOLDER
 """
 import itertools
 import math
@@ -301,7 +301,7 @@ def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post
 
 
 def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
+    folder = sys.argv[1]
     scenes = {2: Scene(2, SEEDS[0], 2, 3), 3: Scene(3, SEEDS[1], 2, 3)}
     for dim, scene in scenes.items():
         scene.write(os.path.join(folder, f"data.bond_{dim}d"))
