@@ -11,7 +11,6 @@ at once, and the steps since the last restart file are repeated. Neither loses a
 (esys) starts over, and so does a rupture (rupture_tpv5: the scene rupture_tpv5.in), which takes minutes. Exit
 status: 0 done, 75 stopped, to be continued, 1 failed.
 
-The classes state which names a program knows (known()), and which of them are set here and not by a table (OWN).
 """
 import ctypes
 import fcntl
@@ -86,13 +85,31 @@ def events_in(catalogue):
         return sum(line[0] not in "#e" and line.endswith("\n") for line in lines)
 
 
-def words_of_lmp(ranks, binaries, scene, log, pairs):
-    """A scene on so many ranks; the file `lock` stays locked as long as they run."""
-    start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/{scene}.in", "-log", log]
-    return start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+class Job:
+    """One run of a program in a folder. OWN: settings that are made here; known(binaries): those that the program has."""
+    catalogue, on_ranks, OWN, known = "catalogue.csv", False, set(), None
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder, self.ranks, self.checkpoint, self.binaries, self.settings = folder, ranks, checkpoint, binaries, settings
+
+    def words_of_lmp(self, scene, log, *pairs):
+        """A scene on so many ranks; the file `lock` stays locked as long as they run."""
+        words = ["mpirun", "-np", self.ranks, "flock", "-n", "-s", "-F", "lock", f"{self.binaries}/lmp", "-in", f"{INPUTS}/{scene}.in", "-log", log]
+        return words + [word for pair in (*pairs, *self.settings) for word in ("-var", *pair.split("=", 1))]
+
+    def stop(self, child):
+        child.terminate()
+
+    def told(self):
+        path = self.folder / "summary.json"
+        return json.loads(path.read_text()) if path.exists() else {}
+
+    def steps(self):
+        """Number of steps, or None unless all are done."""
+        return None if self.told().get("interrupted") else self.told().get("steps")
 
 
-class Fault:
+class Fault(Job):
     catalogue, on_ranks = "fault.catalogue.csv", True
     OWN = {"prefix", "restart", "overwrite", "checkpoint"}
 
@@ -102,25 +119,17 @@ class Fault:
         of_extras = (re.findall(r"^variable\s+(\w+)\s+index\b", path.read_text(), re.M) for path in INPUTS.glob("fault_*.in"))
         return {one.name for one in declared()}.union(*of_extras)
 
-    def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.settings, self.checkpoint, self.start = folder, settings, checkpoint, (ranks, binaries, "fault", "none")
-
-    def restart(self):
-        """Newest complete restart file; lmp checks that it is intact and of the same run."""
-        steps = [int(info.name.split(".")[2]) for info in self.folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
-        return f"fault.restart.{max(steps)}" if steps else None
-
     def command(self):
-        name = self.restart()
-        pairs = [f"restart={name}" if name else "overwrite=yes", "prefix=fault", f"checkpoint={self.checkpoint}", *self.settings]
-        return words_of_lmp(*self.start, pairs)
+        # The newest complete restart file; lmp checks that it is intact and of the same run.
+        steps = [int(info.name.split(".")[2]) for info in self.folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
+        begin = f"restart=fault.restart.{max(steps)}" if steps else "overwrite=yes"
+        return self.words_of_lmp("fault", "none", begin, "prefix=fault", f"checkpoint={self.checkpoint}")
 
     def stop(self, _):
         # fault.in looks for this file after each restart file.
         (self.folder / "fault.stop").touch()
 
     def steps(self):
-        """Number of steps of shear, or None unless all are done."""
         info = self.folder / "fault.restart.end.info"
         if not info.exists():
             return None
@@ -128,7 +137,7 @@ class Fault:
         return int(told["step"]) - int(told["settle"])
 
 
-class Rupture:
+class Rupture(Job):
     """A scene of a rupture, rupture_*.in; its slip history is rupture.slip.bin."""
     catalogue, on_ranks, OWN = "rupture.ruptures.csv", True, Fault.OWN
     scene = None  # of each subclass
@@ -141,17 +150,10 @@ class Rupture:
             text = (INPUTS / re.search(r"^include_beside\s+(\S+)", text, re.M)[1]).read_text()
         return {one.name for one in declared(INPUTS / table[1])} | cls.OWN
 
-    def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder = folder
-        self.words = words_of_lmp(ranks, binaries, self.scene, "rupture.log", ["prefix=rupture", "overwrite=yes", *settings])
-
     def command(self):
         for name in ("cpu.txt", "rupture.log"):  # it starts over
             (self.folder / name).unlink(missing_ok=True)
-        return self.words
-
-    def stop(self, child):
-        child.terminate()
+        return self.words_of_lmp(self.scene, "rupture.log", "prefix=rupture", "overwrite=yes")
 
     def steps(self):
         log = self.folder / "rupture.log"
@@ -162,8 +164,7 @@ class Rupture:
 RUPTURES = {path.stem: type(path.stem, (Rupture,), {"scene": path.stem}) for path in sorted(INPUTS.glob("rupture_tpv*.in"))}
 
 
-class Slider:
-    catalogue, on_ranks = "catalogue.csv", False
+class Slider(Job):
     OWN = {"catalogue", "checkpoint", "json", "progress", "resume", "overwrite", "config", "help", "version"}
 
     @staticmethod
@@ -172,13 +173,9 @@ class Slider:
         said = subprocess.run([f"{binaries}/slider_cli", "--help"], check=True, capture_output=True, text=True).stdout
         return set(re.findall(r"^ +(?:-\w,)?--([a-z][\w-]*)", said, re.M))
 
-    def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.settings, self.binaries = folder, settings, binaries
-
     def command(self):
         words = []
-        for pair in self.settings:
-            key, value = pair.split("=", 1)
+        for key, value in (pair.split("=", 1) for pair in self.settings):
             words += [f"--{key}"] if value == "yes" else [f"--{key}", *(value.split() if key == "friction-range" else [value])]
         resumed = (self.folder / "checkpoint.bin").exists()
         if resumed and not (self.folder / self.catalogue).exists():
@@ -188,50 +185,23 @@ class Slider:
             "--json", "summary.json", "--progress", "--resume" if resumed else "--overwrite"
         ]
 
-    def stop(self, child):
-        child.send_signal(signal.SIGTERM)
 
-    def steps(self):
-        path = self.folder / "summary.json"
-        summary = json.loads(path.read_text()) if path.exists() else {"interrupted": True}
-        return None if summary["interrupted"] else summary["steps"]
-
-
-class Esys:
+class Esys(Job):
     """A fault computed by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
-    catalogue, on_ranks, OWN, known = "fault.catalogue.csv", False, Fault.OWN, Fault.known
-
-    def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.settings, self.binaries = folder, settings, binaries
+    catalogue, OWN, known = "fault.catalogue.csv", Fault.OWN, Fault.known
 
     def command(self):
         return ["flock", "-n", "-s", "-F", "lock", f"{INPUTS.parent}/tests/bench/esys_fault.sh", str(self.binaries), *self.settings]
 
-    def stop(self, child):
-        child.terminate()
 
-    def told(self):
-        path = self.folder / "summary.json"
-        return json.loads(path.read_text()) if path.exists() else {}
-
-    def steps(self):
-        return self.told().get("steps")
-
-
-class Published:
+class Published(Job):
     """An existing catalogue, `file`. The run is a link to it; other settings only serve to describe it."""
-    catalogue, on_ranks, OWN, known = "catalogue.csv", False, set(), None
-
-    def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.file = folder, Path(dict(pair.split("=", 1) for pair in settings).get("file", ""))
 
     def command(self):
-        if not self.file.is_file():
-            raise Failed(f"{self.file}: no such catalogue, expected one in the column 'file'")
-        return ["ln", "-sfn", str(self.file), self.catalogue]
-
-    def stop(self, child):
-        child.terminate()
+        file = Path(dict(pair.split("=", 1) for pair in self.settings).get("file", ""))
+        if not file.is_file():
+            raise Failed(f"{file}: no such catalogue, expected one in the column 'file'")
+        return ["ln", "-sfn", str(file), self.catalogue]
 
     def steps(self):
         return 0 if (self.folder / self.catalogue).is_file() else None
