@@ -15,12 +15,15 @@ import tempfile
 import time
 from pathlib import Path
 
-import pytest
-
 SOURCE = Path(__file__).resolve().parent.parent
 BUILD = Path(os.environ.get("LSM_BUILD_DIR", SOURCE / "build"))
 INPUTS = SOURCE / "inputs"
 TIMEOUT = 300
+
+
+def skip(reason):
+    import pytest  # benchmarks use this file without it
+    pytest.skip(reason)
 
 
 def words(*arguments):
@@ -49,7 +52,7 @@ class Program:
         """The program of that name that CMake has built; LSM_NAME in the environment replaces it."""
         path = os.environ.get("LSM_" + name.upper()) or os.environ.get("LSM_BUILT_" + name.upper()) or BUILD / "bin" / name
         if not Path(path).exists():
-            pytest.skip(f"{name} is not built: no {path}")
+            skip(f"{name} is not built: no {path}")
         return cls(name, path, *options, **more)
 
     @property
@@ -175,7 +178,7 @@ class Faults:
 
     def __init__(self, program, paths=(), calls=CALLS):
         if not shutil.which("strace") or subprocess.run(["strace", "-o", "/dev/null", "true"], capture_output=True).returncode:
-            pytest.skip("strace is missing or may not trace here")
+            skip("strace is missing or may not trace here")
         self.program, self.names = program, calls
         self.paths = [word for path in paths for word in ("-P", str(path))]
 
