@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A study: its table of runs (NAME.csv) and its recipe (NAME.yaml beside it, or default.yaml).
+"""A study: its table of runs (NAME.csv) and its recipe (NAME.py beside it, or default.py).
 
 study_tables.py CONFIG NAME OUT.csv    writes one of its tables: table, costs, differences, or a stack of the recipe
 """
-import ast
-import builtins
 import csv
-import difflib
 import io
 import itertools
 import json
@@ -25,41 +22,18 @@ import yaml
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
 from lsm import LOADING  # noqa: E402
+from recipes import Found, Missing, Numbers, Recipe, RecipeError, meant, read_json  # noqa: E402
 from run import MPI, PROGRAMS, begun_otherwise, replace  # noqa: E402
 from variables import declared, defaults  # noqa: E402
 
 MOST_ASKED = 40  # settings that are checked one by one
 RESERVED = ("run", "program", "ranks", "settings")
-# What an expression raises if numbers of a run are missing
-MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
-# Parts of a recipe
-MAPS = ("numbers", "comparisons", "table", "costs", "means", "differences", "stacks", "values", "figures", "pages")
-PARTS = (*MAPS, "reference", "drawings", "like")
 # Kinds of the values of NAME=VALUE after the table, see config.yaml: whole numbers, or others; "" stands for none
 WHOLE, POSITIVE = ("ranks", "seeds", "checkpoint"), ("hours", "shorten", "minutes")
 
 
-class TableError(Exception):
+class TableError(RecipeError):
     pass
-
-
-class Misspelt(AttributeError):
-    """A field that the numbers of a command do not have, and why."""
-
-
-class Found(dict):
-    """Numbers of JSON files, accessible as a.b[0].c."""
-
-    def __getattr__(self, name):
-        if name in self or name.startswith("__"):
-            return self[name]
-        if self.get("why"):  # what a command could not determine has its reason in place of numbers
-            raise Misspelt(self["why"])
-        raise Misspelt(f"nothing is called '{name}'{meant(name, self)}, expected one of {', '.join(self)}")
-
-
-def read_json(path):
-    return json.loads(Path(path).read_text(), object_hook=Found)
 
 
 def with_defaults(config):
@@ -93,6 +67,10 @@ def positive(text):
         return False
 
 
+def shorten_of(config):
+    return float(config.get("shorten") or 1)
+
+
 def pattern(text, where):
     """Compiles a regular expression. \\raises TableError if it is not valid"""
     try:
@@ -118,8 +96,9 @@ def text_of(path, what):
 class Run:
 
     def __init__(self, name, row, config):
-        self.name, self.row, self.program = name, row, row["program"]
-        self.settings = settings_of(row, config)
+        self.name = self.folder = name
+        self.row, self.program, self.settings, self.shorten = row, row["program"], settings_of(row, config), shorten_of(config)
+        self.postproc = shlex.quote(f"{config.get('bin')}/postproc")
         on_ranks = PROGRAMS[self.program].on_ranks
         given = row.get("ranks") or (config.get("ranks") if on_ranks else "")
         if row.get("ranks") and not on_ranks:
@@ -141,6 +120,7 @@ class Run:
         done = Path(self.name, "done.json")
         return read_json(done).get("failed", "") if done.exists() else ""
 
+    @property
     def loaded(self):
         """When the first loading of a fault ends, in which PE rises: `loading`, for its velocity. 0 for other programs, and if the run ends before."""
         if self.program not in ("fault", "esys"):
@@ -156,15 +136,9 @@ class Run:
             return 0
         return begin if 0 < begin < sum(times) else 0
 
-    def values(self):
-        """Settings, as numbers where possible."""
-        values = dict(run=self.name, folder=self.name, catalogue=self.catalogue, program=self.program, loaded=self.loaded())
-        for key, value in self.settings.items():
-            try:
-                values[key.replace("-", "_")] = float(value)
-            except ValueError:
-                values[key.replace("-", "_")] = value
-        return values
+    def __getitem__(self, name):
+        """The value of a setting, a number where possible."""
+        return float(self.settings[name]) if is_number(self.settings[name]) else self.settings[name]
 
 
 def cell_values(column, cell, config):
@@ -194,7 +168,7 @@ def settings_of(row, config):
         pairs[key] = value
     if row["program"] == "catalogue":
         return pairs
-    shorten = float(config.get("shorten") or 1)
+    shorten = shorten_of(config)
     if shorten != 1 and not {"steps", "time"} & pairs.keys():
         raise TableError(f"shorten={shorten:g}, but the line has neither steps nor time")
     for key in ("steps", "time"):
@@ -260,9 +234,9 @@ def read_runs(path, config):
     return wanted
 
 
-def meant(name, known):
-    close = difflib.get_close_matches(name, known, 1)
-    return f" (did you mean {close[0]}?)" if close else ""
+def text(value):
+    """A number in a table; nothing for one that is missing."""
+    return "" if value is None or value != value else f"{value:.6g}" if isinstance(value, float) else value
 
 
 def mean_and_error(numbers):
@@ -280,82 +254,36 @@ class Study:
 
     def __init__(self, config):
         table = Path(config["table"])
-        self.binaries = config["bin"]
-        self.misspelt = {}  # why an expression has no value
+        self.binaries, self.shorten = config["bin"], shorten_of(config)
         self.runs = read_runs(table, config)
         self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
-        self.common = dict(math.__dict__, postproc=shlex.quote(f"{self.binaries}/postproc"), inputs=shlex.quote(str(INPUTS)),
-                           shorten=float(config.get("shorten") or 1), loading=LOADING)
-        recipe, default = table.with_suffix(".yaml"), Path(__file__).with_name("default.yaml")
-        self.recipe = self.read_recipe(recipe if recipe.exists() else default)
-        if "like" in self.recipe:
-            self.recipe = self.read_recipe(default.with_name(self.recipe["like"] + ".yaml"))
+        own = table.with_suffix(".py")
+        self.recipe = Recipe(own if own.exists() else Path(__file__).with_name("default.py"))
+        some = next(iter(self.runs.values()))
+        # What a recipe makes is known before the numbers are, so that all of it is looked at.
+        self.stacks, self.drawings = list(self.recipe("stacks", some, self.nothing(some))), list(self.recipe("drawings"))
+        self.figures, self.pages = self.recipe("figures", self), self.recipe("pages", self)
+        self.tables = [name for name in ("table", "costs") if self.recipe(name, some, self.nothing(some))]
+        both = [name + end for part in ("means", "differences") for name in self.recipe(part, some, self.nothing(some)) for end in ("", "_error")]
+        twice = [name for name in both if both.count(name) > 1]
+        if twice:
+            raise TableError(f"{self.recipe.path}: means and differences: '{twice[0]}' twice in differences.csv, expected it once")
+        self.tables += ["differences"] * bool(both)
+        for part, key in ("figures", "command"), ("pages", "title"):
+            for name, one in getattr(self, part).items():
+                pattern(one.get("runs"), f"{self.recipe.path}: {part}: {name}: runs")
+                if key not in one:
+                    raise TableError(f"{self.recipe.path}: {part}: {name}: expected a {key}")
         taken = {Path(name).parts[0] for name in self.results()} | {"slurm"}
         for run in self.runs.values():
             if run.name in taken:
                 raise TableError(f"{run.place}: run '{run.name}', expected another name, as results have this one")
             if run.program == "catalogue" and not Path(run.settings.get("file", "")).is_file():
                 raise TableError(f"{run.place}: {run.settings.get('file', 'nothing')}: no such catalogue, expected one in the column 'file'")
-
-    def read_recipe(self, path):
-        """Reads the recipe. \\raises TableError naming what is wrong with it"""
-        try:
-            recipe = yaml.safe_load(text_of(path, "a recipe"))
-        except yaml.YAMLError as error:
-            mark = getattr(error, "problem_mark", None)
-            raise TableError(f"{path}:{mark.line + 1 if mark else 1}: {getattr(error, 'problem', error)}, expected a recipe")
-        if not isinstance(recipe, dict):
-            raise TableError(f"{path}: expected a recipe, lines 'PART: ...'")
-        for part, value in recipe.items():
-            if part not in PARTS:
-                raise TableError(f"{path}: part '{part}', expected one of {', '.join(PARTS)}")
-            if part in MAPS and not isinstance(value or {}, dict):
-                raise TableError(f"{path}: {part}: expected lines 'NAME: ...'")
-        for part in ("figures", "pages"):
-            for name, one in (recipe.get(part) or {}).items():
-                pattern((one or {}).get("runs"), f"{path}: {part}: {name}: runs")
-                if ("command" if part == "figures" else "title") not in (one or {}):
-                    raise TableError(f"{path}: {part}: {name}: expected a {'command' if part == 'figures' else 'title'}")
-        both = [name + end for part in ("means", "differences") for name in recipe.get(part) or {} for end in ("", "_error")]
-        twice = [name for name in both if both.count(name) > 1]
-        if twice:
-            raise TableError(f"{path}: means and differences: '{twice[0]}' twice in differences.csv, expected it once")
-        self.check_expressions(path, recipe)
-        return recipe
-
-    def check_expressions(self, path, recipe):
-        """\\raises TableError if an expression of a recipe is not valid, or uses a name that does not exist"""
-        settings = {key for run in self.runs.values() for key in (*self.known[run.program], *run.row, *run.settings)}
-        known = {
-            *self.common, *dir(builtins), *(key.replace("-", "_") for key in settings), *(recipe.get("values") or {}),
-            *next(iter(self.runs.values())).values()
-        }
-        of_runs = {*known, *(recipe.get("numbers") or {}), *(recipe.get("comparisons") or {}), "done", "summary"}
-
-        def check(expression, names, where):
-            try:
-                tree = list(ast.walk(ast.parse(str(expression).strip(), mode="eval")))
-            except SyntaxError as error:
-                raise TableError(f"{path}: {where}: '{expression}', expected an expression ({error.msg})")
-            own = {node.id for node in tree if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
-            for node in tree:
-                if isinstance(node, ast.Name) and node.id not in names | own:
-                    raise TableError(f"{path}: {where}: nothing is called '{node.id}'{meant(node.id, names)}")
-
-        for part in MAPS:
-            for name, one in (recipe.get(part) or {}).items():
-                where = f"{part}: {name}"
-                if part in ("figures", "pages"):
-                    for key in {"label", "from"} & one.keys():
-                        check(one[key], known, where)
-                    texts = [one.get("command", "")]
-                else:
-                    texts = [one] if part in ("numbers", "comparisons") else []
-                    if not texts:
-                        check(one, known | {"out"} if part == "values" else of_runs, where)
-                for text in texts:
-                    for expression in re.findall(r"\{([^{}]+)\}", text):
-                        check(expression, known | {"out", "reference"}, where)
+            for part in ("table", "costs", "means", "differences", "stacks"):
+                self.recipe(part, run, self.nothing(run))
+            for one in self.pages.values():
+                self.begin(one, run), self.label(one, run)
 
     def known_to(self, program):
         """Names of the settings that a program has; none for existing catalogues."""
@@ -365,8 +293,7 @@ class Study:
             raise TableError(f"cannot ask program {program} in {self.binaries} for its options ({error})")
 
     def check(self):
-        """\\raises TableError for names that the programs do not have, for runs that were started with other settings, and for
-        commands whose expressions cannot be evaluated"""
+        """\\raises TableError for names that the programs do not have, and for runs that were started with other settings"""
         for run in self.runs.values():
             kind, place = PROGRAMS[run.program], run.place
             for name in run.settings if kind.known else ():
@@ -381,8 +308,7 @@ class Study:
                 otherwise = had != run.ranks and f"{folder} was run on {had} ranks, expected {run.ranks}; move it away, or give no ranks"
             if otherwise:
                 raise TableError(f"{place}: {otherwise}")
-            for name in self.numbers(run):
-                self.command(run, name)
+            self.numbers(run)
 
     def check_values(self):
         """\\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again.
@@ -415,9 +341,6 @@ class Study:
         said = re.search(r"^ERROR: (.*?)( \(\S+:\d+\))?$", done.stdout, re.M)
         return said[1] if done.returncode and said else ""
 
-    def part(self, name):
-        return self.recipe.get(name) or {}
-
     def check_programs(self):
         """\\raises TableError if runs need ESyS-Particle and it is not installed"""
         needing = [run.name for run in self.runs.values() if run.program == "esys"]
@@ -427,59 +350,29 @@ class Study:
     def matching(self, pattern):
         return [run for name, run in self.runs.items() if re.search(pattern or "", name)]
 
-    def names(self, values):
-        """Names for expressions: functions of math, `shorten`, `loading`, these values, and the part `values` of the recipe."""
-        names = dict(self.common, **values)
-        for key, expression in self.part("values").items():
-            try:
-                names[key] = eval(str(expression), dict(names))
-            except MISSING:
-                continue
-        return names
-
-    def fill(self, text, values):
-        """The text with the expressions in braces evaluated."""
-        names = self.names(values)
-
-        def computed(braces):
-            value = eval(braces[1], dict(names))
-            return value if isinstance(value, str) else f"{value:.15g}"
-
-        return re.sub(r"\{([^{}]+)\}", computed, text)
-
     def reference(self, run):
         """The run with which this one is compared, or None."""
+        text = self.recipe("reference") or ""
         try:
-            name = self.recipe.get("reference", "").format(**run.row)
+            name = text.format(**run.row)
         except (AttributeError, KeyError, ValueError, IndexError) as error:
-            raise TableError(f"reference '{self.recipe['reference']}', expected the name of a run with columns in braces (not {error})")
+            raise TableError(f"reference '{text}', expected the name of a run with columns in braces (not {error})")
         return self.runs.get(name) if name != run.name else None
 
     def numbers(self, run):
-        """Names and commands for a run, see program()."""
-        commands = dict(self.part("numbers"))
-        if self.reference(run):
-            commands.update(self.part("comparisons"))
-        return commands
+        """Commands for a run by name, see program()."""
+        commands, other = self.recipe("numbers", run), self.reference(run)
+        if other:
+            commands = {**commands, **self.recipe("comparisons", run, other.catalogue)}
+        return {name: self.program(re.sub(r"(?<!\S)OUT(?![\w/-])", f"{run.name}/numbers/{name}", command)) for name, command in commands.items()}
 
-    def label(self, recipe, run):
+    def label(self, one, run):
         """Name of the curve of a run. Some commands take runs with the same label as samples of one model."""
-        return str(eval(recipe["label"], self.names(run.values()))) if "label" in recipe else run.name.replace("_", " ")
+        return self.recipe.asked("label", one["label"], run) if "label" in one else run.name.replace("_", " ")
 
-    def begin(self, recipe, run):
+    def begin(self, one, run):
         """The time from which on a page has the events of a run."""
-        return f"{eval(str(recipe.get('from', 0)), self.names(run.values())):.15g}"
-
-    def command(self, run, name):
-        other = self.reference(run)
-        # Settings are words for the shell; only recipes are code.
-        values = {key: shlex.quote(value) if isinstance(value, str) else value for key, value in run.values().items()}
-        values.update(out=f"{run.name}/numbers/{name}", reference=other.catalogue if other else "")
-        try:
-            command = self.fill(self.numbers(run)[name], values)
-        except MISSING as error:
-            raise TableError(f"numbers of run '{run.name}': {name}: {error}")
-        return self.program(command)
+        return f"{self.recipe.asked('begin', one['begin'], run) if 'begin' in one else 0:.15g}"
 
     def program(self, command):
         """A command for the shell: of postproc, a script of results (NAME.py), or a program of the Python module lsm (lsm.NAME)."""
@@ -488,31 +381,28 @@ class Study:
             return f"{python} {shlex.quote(str(INPUTS.parent / 'results'))}/{command}"
         if command.startswith("lsm."):
             return f"PYTHONPATH={shlex.quote(str(INPUTS.parent / 'python'))}:${{PYTHONPATH:-}} {python} -m {command}"
-        return f"{self.common['postproc']} {command} --overwrite"
+        return f"{next(iter(self.runs.values())).postproc} {command} --overwrite"
+
+    def nothing(self, run):
+        """What a run of which nothing is known yet has: names without numbers."""
+        names = ["done", "summary", *self.recipe("numbers", run), *self.recipe("comparisons", run, "")]
+        return Numbers({name: Missing() for name in names})
 
     def found(self, run):
-        """All numbers of a run, by the names of the commands that determine them; of one that failed, why."""
-        found = self.names(run.values())
+        """All numbers of a run; of one that failed, why."""
+        found = self.nothing(run)
         if run.failed:
-            return found | {"done": Found(failed=run.failed)}
-        for path in [f"{run.name}/done.json", f"{run.name}/summary.json", *(f"{run.name}/numbers/{name}.json" for name in self.numbers(run))]:
-            if Path(path).exists():
-                found[Path(path).stem] = read_json(path)
+            found["done"] = Found(failed=run.failed)
+            return found
+        found.update({
+            name: read_json(path)
+            for name in found for path in (Path(run.name, f"{name}.json"), Path(run.name, "numbers", f"{name}.json")) if path.exists()
+        })
         return found
 
-    def row(self, run, expressions):
-        """The values of the expressions, empty where something is missing."""
-        found, values = self.found(run), []
-        for expression in expressions:
-            try:
-                value = eval(str(expression), dict(found))
-            except Misspelt as error:
-                value = None
-                self.misspelt[expression] = f" ({error})"
-            except MISSING:
-                value = None
-            values.append("" if value is None else f"{value:.6g}" if isinstance(value, float) else value)
-        return values
+    def row(self, part, run):
+        """The numbers of a run in a part of the recipe by column."""
+        return self.recipe(part, run, self.found(run))
 
     def done(self):
         """The runs but those that failed."""
@@ -535,73 +425,57 @@ class Study:
 
     def asked(self, name):
         """All that a table depends on except the numbers of the runs: if it changes, the table is made again."""
-        part = "stacks" if name in self.part("stacks") else name
-        return json.dumps([self.part("means"), self.part(part), self.part("values"), self.columns(), [self.start(run) for run in self.runs.values()]])
+        parts = ("means", "differences") if name == "differences" else ("stacks",) if name in self.stacks else (name,)
+        return json.dumps([self.shorten, *map(self.recipe.text, parts), self.columns(), [self.start(run) for run in self.runs.values()]])
 
     def table(self, name):
         """One line for each run, with the columns in part `name` of the recipe."""
-        part, rows = self.part(name), []
-        for run in self.runs.values():
-            rows.append(self.row(run, part.values()))
-        empty = [column for column, values in zip(part, zip(*rows)) if not any(value != "" for value in values)]
+        rows = [self.row(name, run) for run in self.runs.values()]
+        empty = [column for column in rows[0] if not any(text(row[column]) != "" for row in rows)]
         if empty:
-            said = [column + self.misspelt.get(part[column], "") for column in empty]
-            where = "" if all(part[column] in self.misspelt for column in empty) else "; the reasons are in RUN/numbers"
-            print(f"{name}.csv: empty for all runs: {', '.join(said)}{where}", file=sys.stderr)
-        return [["run", *self.columns(), *part]] + [self.start(run) + row for run, row in zip(self.runs.values(), rows)]
+            why = {column: next((f" ({row[column].why})" for row in rows if getattr(row[column], "why", "")), "") for column in empty}
+            where = "" if all(why.values()) else "; the reasons are in RUN/numbers"
+            print(f"{name}.csv: empty for all runs: {', '.join(column + why[column] for column in empty)}{where}", file=sys.stderr)
+        return [["run", *self.columns(), *rows[0]]] + [self.start(run) + list(map(text, row.values())) for run, row in zip(self.runs.values(), rows)]
 
-    def stack(self, expression):
+    def stack(self, name):
         """One line for each row of a table that each run has."""
-        lines = []
-        for run in self.done():
-            try:
-                rows = eval(expression, dict(self.found(run)))
-            except MISSING:
-                continue
-            for row in rows:
-                if not lines:
-                    lines.append(["run", *self.columns(), *row])
-                lines.append(self.start(run) + ["" if value is None else value for value in row.values()])
-        return lines
+        rows = [(run, row) for run in self.done() for row in self.row("stacks", run)[name]]
+        lines = [self.start(run) + ["" if isinstance(value, Missing) else value for value in row.values()] for run, row in rows]
+        return [["run", *self.columns(), *row] for _, row in rows[:1]] + lines
 
     def differences(self):
         """One line for all seeds of a model: means with errors of part `means`, and of the differences from the first model, seed by seed."""
-        means, differences, groups, values = self.part("means"), self.part("differences"), {}, {}
+        columns = [column for column in self.columns() if column != "seed"]
+        groups, values = {}, {run.name: (self.row("means", run), self.row("differences", run)) for run in self.done()}
         for run in self.done():
-            key = tuple(run.row.get(column, "") for column in self.columns() if column != "seed")
-            groups.setdefault(key, []).append(run)
-            row = self.row(run, [*means.values(), *differences.values()])
-            values[run.name] = [float(value) if value != "" else math.nan for value in row]
-        first = next(iter(self.runs.values()))
-        first = {
-            run.row.get("seed"): values[run.name]
-            for run in groups.get(tuple(first.row.get(column, "") for column in self.columns() if column != "seed"), [])
-        }
-        lines = [[c
-                  for c in self.columns() if c != "seed"] + ["seeds"] + [f"{name}{end}" for name in (*means, *differences) for end in ("", "_error")]]
+            groups.setdefault(tuple(run.row.get(column, "") for column in columns), []).append(run)
+        runs = list(self.runs.values())
+        first = groups.get(tuple(runs[0].row.get(column, "") for column in columns), [])
+        first = {run.row.get("seed"): values[run.name][1] for run in first}
+        means, differences = (self.recipe(part, runs[0], self.nothing(runs[0])) for part in ("means", "differences"))
+        lines = [columns + ["seeds"] + [name + end for name in (*means, *differences) for end in ("", "_error")]]
         for key, runs in groups.items():
             line = [*key, len(runs)]
-            for k in range(len(means)):
-                line += mean_and_error([values[run.name][k] for run in runs])
-            for k in range(len(means), len(means) + len(differences)):
-                line += mean_and_error([values[run.name][k] - first[run.row.get("seed")][k] for run in runs if run.row.get("seed") in first])
+            for name in means:
+                line += mean_and_error([values[run.name][0][name] for run in runs])
+            for name in differences:
+                others = [(values[run.name][1][name], first[run.row.get("seed")][name]) for run in runs if run.row.get("seed") in first]
+                line += mean_and_error([one - other for one, other in others])
             lines.append(line)
         return lines
 
     def write(self, name, path):
-        stacks = self.part("stacks")
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(
-            self.stack(stacks[name]) if name in stacks else self.differences() if name == "differences" else self.table(name))
-        replace(Path(path), text.getvalue())
+        made = self.stack(name) if name in self.stacks else self.differences() if name == "differences" else self.table(name)
+        out = io.StringIO()
+        csv.writer(out, lineterminator="\n").writerows(made)
+        replace(Path(path), out.getvalue())
 
     def results(self):
         """The files that a study makes for its reader."""
-        figures = [f"figures/{name}.png" for name, one in self.part("figures").items() if self.matching(one.get("runs"))]
-        pages = [f"{name}.html" for name, one in self.part("pages").items() if self.matching(one.get("runs"))]
-        tables = [f"{name}.csv" for name in ("table", "costs", "differences") if self.part(name)]
-        return tables + [f"{name}.csv"
-                         for name in self.part("stacks")] + figures + pages + [f"{name}.png" for name in self.recipe.get("drawings", [])]
+        figures = [f"figures/{name}.png" for name, one in self.figures.items() if self.matching(one.get("runs"))]
+        pages = [f"{name}.html" for name, one in self.pages.items() if self.matching(one.get("runs"))]
+        return [f"{name}.csv" for name in self.tables + self.stacks] + figures + pages + [f"{name}.png" for name in self.drawings]
 
     def numbers_of_all(self):
         return [f"{run.name}/numbers/{name}.json" for run in self.runs.values() for name in self.numbers(run)]

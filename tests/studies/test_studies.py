@@ -21,7 +21,7 @@ from programs import INPUTS, Program, refused, run, start
 from slurm import Slurm, said
 
 sys.path.insert(0, str(INPUTS / "studies"))
-from study_tables import TableError, read_runs  # noqa: E402
+from study_tables import Study, TableError, read_runs, with_defaults  # noqa: E402
 
 RUNS = """run,program,length,blocks,steps,ranks,settings
 one,fault,40,,150000,1,preset=absorbing width=20 settle=500 velocity=0.01 thermo=1000
@@ -339,11 +339,16 @@ def test_settings_of_several_words(studies):
 
 
 def test_plans(studies):
-    """Every study that ships can be planned, and its faults have values that they may have."""
+    """Every study that ships has settings that its programs know and may have, and a recipe that is one."""
     shipped = sorted(path.stem for path in (INPUTS / "studies").glob("*.csv"))
     assert len(shipped) > 10
     for name in shipped:
-        studies(f"plan_{name}", "-n --quiet", table=INPUTS / f"studies/{name}.csv")
+        one = Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(studies.binaries)}))
+        one.check()
+        one.check_values()
+    # With figures and pages, stacks, and differences and drawings
+    for name in "quick", "ruptures", "work-precision":
+        studies(f"plan_{name}", "-n --quiet", table=name)
 
 
 def test_recipes(studies, gnuplot, work):
@@ -384,7 +389,7 @@ def test_esys(studies):
     if not shutil.which("esysparticle"):
         pytest.skip("no ESyS-Particle (Debian package esys-particle)")
     # With soft contacts: ESyS-Particle begins without their tangential springs, the forces of which the links have to bear at once.
-    shutil.copy(INPUTS / "studies/whole-job.yaml", "soft.yaml")
+    shutil.copy(INPUTS / "studies/whole-job.py", "soft.py")
     edit(INPUTS / "studies/whole-job.csv", "soft.csv", ("hold=position", "hold=position kt=0.07"))
     studies("whole_job", "shorten=4000", table="soft.csv")
     costs = {row["run"]: row for row in csv.DictReader(open("whole_job/costs.csv"))}

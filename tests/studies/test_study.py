@@ -22,12 +22,20 @@ from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # n
 sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 from lsm import LOADING  # noqa: E402
 from progress import RunProgress  # noqa: E402
-from study_tables import Found, Study, TableError, with_defaults  # noqa: E402
+from recipes import RecipeError, found, ratio  # noqa: E402
+from study_tables import Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,preset=absorbing width=20 settle=100 velocity=0.02 stress=0.003\n"
 CHAIN = "run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1,1e5,velocity=0.05 warmup=0\n"
-RECIPE = "numbers:\n  count: count {catalogue}\n  sizes: count {catalogue} --size 1e-3\ntable:\n  events: count.catalogues[0].events\n"
+RECIPE = """def numbers(run):
+    return {"count": f"count {run.catalogue}", "sizes": f"count {run.catalogue} --size 1e-3"}
+
+
+def table(run, found):
+    row = {"events": found.count.catalogues[0].events}
+    return row
+"""
 # Records of Snakemake, and locks
 NOTES = r"\.snakemake|/\.lock|/lock$"
 
@@ -53,7 +61,7 @@ def plan(work, binaries):
     def planned(table, recipe=None, **config):
         Path("my.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
         if recipe:
-            Path("my.yaml").write_text(recipe)
+            Path("my.py").write_text(recipe)
         found = Study(with_defaults({**config, "table": "my.csv", "bin": str(binaries)}))
         found.check()
         return found
@@ -61,9 +69,14 @@ def plan(work, binaries):
     return planned
 
 
+def with_columns(**columns):
+    """The recipe with further columns."""
+    return RECIPE.replace("    return row\n", "".join(f'    row["{name}"] = {one}\n' for name, one in columns.items()) + "    return row\n")
+
+
 def write(table, recipe=RECIPE):
     Path("my.csv").write_text(table)
-    Path("my.yaml").write_text(recipe)
+    Path("my.py").write_text(recipe)
 
 
 def table(name="out/table.csv"):
@@ -131,25 +144,24 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
     write(CHAIN)
     run(study, "my.csv")
     first = when("out/*/numbers/*.json")
-    write(CHAIN, RECIPE + "  large: sizes.sizes[0].events\n")
+    write(CHAIN, with_columns(large="found.sizes.sizes[0].events"))
     run(study, "my.csv")
     assert when("out/*/numbers/*.json") == first and int(table()["c_1"]["large"]) > 0
-    write(CHAIN, RECIPE.replace("--size 1e-3", "--size 1e9") + "  large: sizes.sizes[0].events\n")
+    write(CHAIN, with_columns(large="found.sizes.sizes[0].events").replace("--size 1e-3", "--size 1e9"))
     run(study, "my.csv")
     count, sizes = Path("out/c_1/numbers/count.json"), Path("out/c_1/numbers/sizes.json")
     assert when("out/*/numbers/*.json")[count] == first[count] and when("out/*/numbers/*.json")[sizes] != first[sizes]
     assert table()["c_1"]["large"] == "0"
-    write(CHAIN, RECIPE.replace("events: count", "events: 2*count"))
+    write(CHAIN, RECIPE.replace("found.count", "2 * found.count"))
     run(study, "my.csv")
     assert table()["c_1"]["events"] == str(2 * int(counted("c_1/catalogue.csv")))
-    pages = RECIPE + "pages:\n  report: {title: First}\nfigures:\n  sizes: {command: histograms}\n"
+    pages = RECIPE + "figures = {'sizes': dict(command='histograms')}\npages = {'report': dict(title='First')}\n"
     write(CHAIN, pages)
     run(study, "my.csv")
     drawn, events = when("out/figures/sizes.png"), int(counted("c_1/catalogue.csv"))
     assert f" {events} " in Path("out/report.html").read_text()
-    write(
-        CHAIN,
-        pages.replace("First", "Second title, from: 2500*shorten, label: run + ' of one model'").replace("histograms", "histograms --guide=-1:1:10"))
+    model = "'Second title', begin=lambda run: 2500 * run.shorten, label=lambda run: run.name + ' of one model'"
+    write(CHAIN, pages.replace("'First'", model).replace("histograms", "histograms --guide=-1:1:10"))
     run(study, "my.csv")
     page = Path("out/report.html").read_text()
     later = sum(line[0] not in "#e" and float(line.split(",")[1]) >= 2500 for line in open("out/c_1/catalogue.csv"))
@@ -159,11 +171,9 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
 
 def test_scripts_of_results_give_numbers(study):
     """A recipe may use them, and programs of the module lsm, beside commands of postproc."""
-    own = "  own: match.py {catalogue} {catalogue} --threshold 1e-3 --within 1\n"
-    write(
-        CHAIN,
-        RECIPE.replace("table:\n", own + "table:\n  of: own.matches[0].n_first\n  same: own.matches[0].same\n") +
-        "figures:\n  scaled: {command: lsm.scaling --threshold 0}\n")
+    own = '"own": f"match.py {run.catalogue} {run.catalogue} --threshold 1e-3 --within 1", "sizes"'
+    columns = with_columns(of="found.own.matches[0].n_first", same="found.own.matches[0].same").replace('"sizes"', own)
+    write(CHAIN, columns + "figures = {'scaled': dict(command='lsm.scaling --threshold 0')}\n")
     run(study, "my.csv")
     assert json.loads(Path("out/figures/scaled.json").read_text())["scaling"][0]["points"][0]["n"] == int(counted("c_1/catalogue.csv"))
     assert Path("out/figures/scaled.png").stat().st_size
@@ -175,7 +185,7 @@ RUPTURE = "run,program,dx,ranks,settings\n{dx}_m,rupture_tpv5,2000 1500,1,length
 
 def test_ruptures_of_a_plane(study):
     """The study ruptures with coarse lattices: numbers beside the reference, and a table of all stations."""
-    write(RUPTURE, (INPUTS / "studies/ruptures.yaml").read_text())
+    write(RUPTURE, (INPUTS / "studies/ruptures.py").read_text())
     run(study, "my.csv")
     rows = table()
     assert list(rows) == ["2000_m", "1500_m"] and all(row["ruptures"] == counted(f"{name}/rupture.ruptures.csv") for name, row in rows.items())
@@ -189,7 +199,7 @@ def test_ruptures_of_a_plane(study):
     assert done["steps"] > 10 and done["ranks"] == 1
     # Nothing is done again, and other settings are refused.
     assert "Nothing to be done" in run(study, "my.csv -n").out
-    write(RUPTURE.replace("tend=2", "tend=3"), (INPUTS / "studies/ruptures.yaml").read_text())
+    write(RUPTURE.replace("tend=2", "tend=3"), (INPUTS / "studies/ruptures.py").read_text())
     refused(study, "my.csv", r"out/2000_m was begun with other settings \(tend=2\), expected tend=3", but=NOTES)
 
 
@@ -247,7 +257,7 @@ def test_clocks_say_nothing(study, slider):
     lines = Path("whole.csv").read_text().splitlines(keepends=True)
     events = sum(line[0] not in "#e" for line in lines)
     many = " ".join(f"--size {size}" for size in range(1, 2500))
-    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", RECIPE.replace("--size 1e-3", many) + "  other: len(sizes.sizes)\n")
+    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", with_columns(other="len(found.sizes.sizes)").replace("--size 1e-3", many))
     Path("one.csv").write_text("".join(lines))
     run(study, "my.csv")
     assert Path("out/seen_1/numbers/sizes.json").stat().st_size > 100000
@@ -272,10 +282,10 @@ def test_what_a_command_refuses_is_an_error_and_no_empty_cell(study):
     write(CHAIN, RECIPE.replace("--size 1e-3", "--sizes 1e-3"))
     assert run(study, "my.csv", status=None).status == 1
     assert not Path("out/c_1/numbers/sizes.json").exists() and not Path("out/table.csv").exists()
-    write(CHAIN, RECIPE + "  sizes: sizes.catalogues[0].evnts\n")
+    write(CHAIN, with_columns(sizes="found.sizes.catalogues[0].evnts"))
     run(study,
         "my.csv").warned(r"^table.csv: empty for all runs: sizes \(nothing is called 'evnts' \(did you mean events\?\), expected one of label, .*\)$")
-    write(CHAIN, RECIPE + "  sizes: sizes.catalogues[1].events\n")
+    write(CHAIN, with_columns(sizes="found.sizes.catalogues[1].events"))
     run(study, "my.csv").warned("^table.csv: empty for all runs: sizes; the reasons are in RUN/numbers$")
 
 
@@ -362,8 +372,9 @@ def test_folders_with_odd_names(study, binaries):
         shutil.copytree(SOURCE / folder, work / "my copy" / folder)
     (work / "my programs").symlink_to(binaries)
     (work / "a study").mkdir()
-    recipe = RECIPE + "  x: fit.fits[0].exponent\ndrawings: [line]\npages:\n  report: {title: All of it}\n"
-    (work / "a study/my table.yaml").write_text(recipe.replace("table:", "  fit: fit {catalogue} --replicas 0 --no-picture -o {out}\ntable:"))
+    fit = '"fit": f"fit {run.catalogue} --replicas 0 --no-picture -o OUT", "sizes"'
+    recipe = with_columns(x="found.fit.fits[0].exponent").replace('"sizes"', fit)
+    (work / "a study/my table.py").write_text(recipe + "drawings, pages = ['line'], {'report': dict(title='All of it')}\n")
     (work / "a study/my table.csv").write_text("run,program,length,blocks,seed,steps,settings\n" + FAULT.replace("24,,", "24,,") +
                                                CHAIN.split("\n")[1].replace("slider,", "slider,,").replace("1e5", "1e6") + "\n")
     (work /
@@ -501,8 +512,20 @@ def test_tables_that_are_right(plan, work):
 
 def test_a_run_that_failed_is_no_result(study, work):
     """Its cells are empty, curves and pages leave it out, and it is named at each start; the study has not succeeded."""
-    recipe = RECIPE + ("stacks:\n  all: sizes.sizes\nmeans:\n  n: count.catalogues[0].events\ndifferences:\n  m: count.catalogues[0].events\n"
-                       "figures:\n  sizes: {command: histograms}\npages:\n  report: {title: All}\n")
+    recipe = RECIPE + """def stacks(run, found):
+    return {"all": found.sizes.sizes}
+
+
+def means(run, found):
+    return {"n": found.count.catalogues[0].events}
+
+
+def differences(run, found):
+    return {"m": found.count.catalogues[0].events}
+
+
+figures, pages = {"sizes": dict(command="histograms")}, {"report": dict(title="All")}
+"""
     write(CHAIN.replace("0,1,1e5", "0,1-3,1e5"), recipe)
     run(study, "my.csv")
     Path("out/c_2/done.json").write_text(json.dumps({"failed": "a link is strained by 0.78"}))
@@ -553,41 +576,33 @@ def test_what_would_be_submitted_is_said(study):
 
 
 def test_means_have_errors_and_names_of_their_own(study, plan):
-    parts = "means:\n  n: count.catalogues[0].events\ndifferences:\n  m: log(count.catalogues[0].events)\n"
+    parts = """from recipes import log
+
+
+def means(run, found):
+    return {"n": found.count.catalogues[0].events}
+
+
+def differences(run, found):
+    return {"m": log(found.count.catalogues[0].events)}
+"""
     write(CHAIN.replace("0,1,1e5", "0,1-2,1e5"), RECIPE + parts)
     run(study, "my.csv")
     a, b = (int(row["events"]) for row in table().values())
     with open("out/differences.csv") as lines:
         row, = csv.DictReader(lines)
     assert float(row["n"]) == (a + b) / 2 and float(row["n_error"]) == pytest.approx(abs(a - b) / 2, rel=1e-5) and row["m"] == row["m_error"] == "0"
-    with pytest.raises(TableError, match="my.yaml: means and differences: 'n_error' twice in differences.csv, expected it once"):
-        plan("run,program\nc,slider\n", RECIPE + parts.replace("m:", "n_error:"))
+    with pytest.raises(TableError, match="my.py: means and differences: 'n_error' twice in differences.csv, expected it once"):
+        plan("run,program\nc,slider\n", RECIPE + parts.replace('"m"', '"n_error"'))
 
 
 def test_a_number_that_is_missing_says_why():
-    with pytest.raises(AttributeError, match="^nothing is called 'evnts' .did you mean events.., expected one of events, label$"):
-        Found(events=3, label="a").evnts
-    with pytest.raises(AttributeError, match="^5 events, at least 10 needed$"):
-        Found(label="a", why="5 events, at least 10 needed").exponent
-
-
-def test_values_may_be_numbers(plan):
-    found = plan("run,program\nc,slider\n", "values:\n  begin: 120\nnumbers:\n  count: count {catalogue} --from {begin}\n")
-    assert found.command(found.runs["c"], "count").endswith("count c/catalogue.csv --from 120 --overwrite")
-
-
-def test_settings_are_no_code(plan):
-    found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
-    assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} count c/catalogue.csv --label 'a; touch b' --overwrite"
-    # Snakemake's shell ends at a variable that is not set.
-    assert subprocess.run(["bash", "-euc", found.program("lsm.regime --help")], env={}, capture_output=True).returncode == 0
-
-
-def test_first_loading_has_a_name(plan):
-    """Recipes leave out what tables.py and publish.py leave out."""
-    found = plan("run,program\nc,slider\n", "values:\n  begin: loading/2\nnumbers:\n  count: count {catalogue} --from {loading} --to {begin}\n")
-    words = f"count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g}"
-    assert found.command(found.runs["c"], "count") == f"{found.common['postproc']} {words} --overwrite"
+    some = found({"events": 3, "label": None, "times": [{"mean": 2}], "why": "", "fit": {"why": "5 events, at least 10 needed"}})
+    assert some.evnts.why.startswith("nothing is called 'evnts' (did you mean events?), expected one of events, label")
+    assert some.fit.exponent[0].error.why == "5 events, at least 10 needed" and some.times[0].mean == 2
+    for one in (some.label, some.times[1].mean, some.fit.get("leaps", 0) or some.label, 1 - some.label, ratio(3, 0), ratio(3, some.label)):
+        assert not one == one, "a value of what is missing"
+    assert list(some.times[1].rates) == []
 
 
 def test_first_loading_is_left_out(plan):
@@ -595,10 +610,10 @@ def test_first_loading_is_left_out(plan):
     found = plan("run,program,velocity,steps\na,fault,,\nfast,fault,1e-3,\nshort,fault,,2000\nc,slider,,\n")
     for name, begin in ("a", LOADING), ("fast", 1200 + (LOADING - 1200) / 4), ("short", 0), ("c", 0):
         for number in "count", "fit", "times":
-            words = found.command(found.runs[name], number).split()
+            words = found.numbers(found.runs[name])[number].split()
             assert [word for option, word in zip(words, words[1:]) if option == "--from"] == [f"{begin:.15g}"] * (begin > 0), (name, number, words)
-        assert found.begin(found.part("pages")["report"], found.runs[name]) == f"{begin:.15g}"
-        assert found.row(found.runs[name], found.part("table").values())[1] in (begin, f"{begin:.6g}")
+        assert found.begin(found.pages["report"], found.runs[name]) == f"{begin:.15g}"
+        assert found.row("table", found.runs[name])["from_time"] == begin
 
 
 @pytest.mark.parametrize("config, said", [
@@ -620,25 +635,18 @@ def test_settings_of_a_study_that_say_what_is_wrong(plan, config, said):
 
 
 @pytest.mark.parametrize("recipe, said", [
-    ("numbres:\n  count: count\n", "my.yaml: part 'numbres', expected one of"),
-    ("numbers: [1, 2]\n", "my.yaml: numbers: expected lines 'NAME: ...'"),
-    ("- a\n", "my.yaml: expected a recipe"),
-    ("table: {a: b\n", "my.yaml:2: expected ',' or '}', but got '<stream end>', expected a recipe"),
-    ("table:\n  x: count.catalogues[0].events\n", "my.yaml: table: x: nothing is called 'count'"),
-    ("numbers:\n  count: count {catalog}\n", "my.yaml: numbers: count: nothing is called 'catalog' (did you mean catalogue?)"),
-    ("table:\n  x: 1 +\n", "my.yaml: table: x: '1 +', expected an expression"),
-    ("figures:\n  a: {runs: '(', command: fit}\n", "my.yaml: figures: a: runs '(', expected a regular expression"),
-    ("figures:\n  a: {runs: c}\n", "my.yaml: figures: a: expected a command"),
-    ("reference: '{block}'\n", "reference '{block}', expected the name of a run with columns in braces (not 'block')"),
-    ("numbers:\n  count: count {catalogue} --from {1/(dt - dt)}\n", "numbers of run 'c': count: name 'dt' is not defined"),
+    ("def numbres(run):\n    return {}\n", "my.py:1: 'numbres' (did you mean numbers?), expected one of"),
+    ("a = 1\n1 +\n", "my.py:2: the recipe: invalid syntax"),
+    ("def table(run, found):\n    return {'x':\n            found.count}\n",
+     "my.py:3: table: AttributeError: nothing is called 'count', expected one of"),
+    ("def numbers(run):\n    return {'a': run.catalog}\n", "my.py:2: numbers: AttributeError: 'Run' object has no attribute 'catalog'"),
+    ("def numbers(run):\n    return {'a': run['dt']}\n", "my.py:2: numbers: KeyError: 'dt'"),
+    ("figures = {'a': dict(runs='(', command='fit')}\n", "my.py: figures: a: runs '(', expected a regular expression"),
+    ("figures = {'a': dict(runs='c')}\n", "my.py: figures: a: expected a command"),
+    ("pages = {'a': dict(title='A', begin=lambda run: 1 / 0)}\n", "my.py:1: begin: ZeroDivisionError"),
+    ("reference = '{block}'\n", "reference '{block}', expected the name of a run with columns in braces (not 'block')"),
 ])
 def test_recipes_that_say_what_is_wrong(plan, recipe, said):
-    with pytest.raises(TableError) as error:
+    with pytest.raises(RecipeError) as error:
         plan("run,program,blocks\nc,slider,100\n", recipe)
     assert str(error.value).startswith(said)
-
-
-@pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
-def test_studies_that_ship(binaries, work, name):
-    """Their settings are ones that the programs have, and their recipes are valid."""
-    Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)})).check()
