@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One self-contained HTML page on a set of catalogues: counts, figures (SVG), fits, finite-size scaling, Table 1, parameters, and what of
-it is not in the paper. Numbers, texts and figures are those of the commands of postproc, of lsm.scaling and of lsm.regime.
+it is not in the paper. Numbers, texts and figures are those of the commands of postproc and of lsm.scaling.
 
-report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--series FILE]... [--from TIME]... [--to TIME]
-          [--threshold SIZE] [--lenient] [--replicas N] [--seed N] CATALOGUE...
+report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--from TIME]... [--threshold SIZE] [--lenient]
+          [--replicas N] CATALOGUE...
 """
 import argparse
 import gzip
@@ -62,9 +62,8 @@ class Postproc:
     def __call__(self, command, *words):
         """What a command prints, or a program of the module lsm, without the names of its files. \\raises ValueError with its line of error"""
         program = [sys.executable, "-m"] if command.startswith("lsm.") else [self.program]
-        options = [one for one in self.options if (command, one) != ("lsm.regime", "--lenient")]  # it leaves out what is not complete
         where = {**os.environ, "PYTHONPATH": f"{PYTHON}:{os.environ.get('PYTHONPATH', '')}"}
-        done = subprocess.run([*program, command, *map(str, words), *options], capture_output=True, text=True, env=where)
+        done = subprocess.run([*program, command, *map(str, words), *self.options], capture_output=True, text=True, env=where)
         if done.returncode:
             raise ValueError(done.stderr.strip().removeprefix("postproc: "))
         return "".join(line + "\n" for line in done.stdout.splitlines() if not line.startswith("wrote ")) + done.stderr
@@ -100,7 +99,7 @@ def section(postproc, files, labels, model, kind, settings):
     named = [*files, *(f"--label={label}" for label in labels)]
     least = ["--threshold", settings.threshold] if settings.threshold else []
     of_sizes, of_times = (f"Compare with Fig. {n} of the paper. " if kind == "pe" else "" for n in FIGURES.get(model, ("", "")))
-    quick = ["--seed", settings.seed, "--replicas", settings.replicas]
+    quick = ["--seed", 1, "--replicas", settings.replicas]
 
     def sizes():
         postproc("histograms", *named, *least, *GUIDES.get(model, []), *postproc.base("sizes"))
@@ -120,7 +119,7 @@ def section(postproc, files, labels, model, kind, settings):
 
     def times(rescaled):
         words = [*named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood"]
-        text = postproc.text("intervals", *words, "--seed", settings.seed, "--replicas", 0 if rescaled else settings.replicas,
+        text = postproc.text("intervals", *words, "--seed", 1, "--replicas", 0 if rescaled else settings.replicas,
                              *["--rescale"] * rescaled, *postproc.base("times"))
         if rescaled:
             return postproc.figure("times", "Inter-event times divided by their mean",
@@ -151,7 +150,7 @@ def page_of(settings, folder):
     if len(begin) > 1 and len(begin) != len(paths):
         raise ValueError(f"--from given {len(begin)} times, expected once, or once for each of {len(paths)} catalogues")
     own = len(begin) > 1
-    options = [f"--from={one}" for one in begin if not own] + [f"--to={settings.end}"] * (settings.end is not None)
+    options = [f"--from={one}" for one in begin if not own]
     postproc = Postproc(settings.postproc, folder, options + ["--lenient"] * settings.lenient)
     labels = settings.label or []
     if labels and len(labels) != len(settings.catalogues):
@@ -180,13 +179,8 @@ def page_of(settings, folder):
         models += f'<h2 id="model-{number}">{html.escape(heading)}</h2>\n{section(postproc, paths, some, model, kind, settings)}'
         if any(headers):
             parameters += f"<h3>{html.escape(heading)}</h3>\n<p>{html.escape('; '.join(some))}</p>\n{parameter_table(headers)}"
-    regimes = "".join(postproc.text("lsm.regime", path) for path in settings.series or [])
-    if regimes:
-        regimes = ("<h2>Stick-slip or creep</h2>\n" + regimes +
-                   "<p>† The paper shows in its Fig. 8 that PE rises steadily and drops at once. Saw-tooth: "
-                   "rate at which PE falls over the rate at which it rises; large is stick-slip, near 1 creep.</p>\n")
-    values = dict(title=html.escape(settings.title), contents=contents, catalogues=counts, regimes=regimes, models=models, parameters=parameters,
-                  replicas=str(settings.replicas), seed=str(settings.seed), generator=GENERATOR)
+    values = dict(title=html.escape(settings.title), contents=contents, catalogues=counts, models=models, parameters=parameters,
+                  replicas=str(settings.replicas), generator=GENERATOR)
     template = Path(__file__).with_name("report.html").read_text()
     return re.sub(r"{{(\w+)}}", lambda found: values[found[1]], template)
 
@@ -195,7 +189,7 @@ def main(settings):
     page = Path(settings.output)
     if page.is_dir():
         raise ValueError(f"{page}: is a directory, expected a file name")
-    if any(page.exists() and page.samefile(path) for path in [*settings.catalogues, *(settings.series or [])] if Path(path).exists()):
+    if any(page.exists() and page.samefile(path) for path in settings.catalogues if Path(path).exists()):
         raise ValueError(f"{page}: is read by this program, expected another name")
     if page.exists() and GENERATOR not in page.read_text(errors="replace")[:1000]:
         raise ValueError(f"{page} exists and is no page of this program, expected another name")
@@ -218,14 +212,11 @@ def parser():
     options.add_argument("-o", "--output", default="report.html", metavar="PAGE")
     options.add_argument("--title", default="Event statistics of the fault and the block-slider")
     options.add_argument("--label", action="append", help="name of a curve, once per catalogue")
-    options.add_argument("--series", action="append", metavar="FILE", help="PE series of runs, whose regime, stick-slip or creep, the page states †")
     options.add_argument("--from", dest="begin", action="append", metavar="TIME",
                          help="leave out what starts before; once, or once per catalogue of a model (0: nothing)")
-    options.add_argument("--to", dest="end", metavar="TIME")
     options.add_argument("--threshold", metavar="SIZE", help="smallest size of the events; without it that of postproc")
     options.add_argument("--lenient", action="store_true", help="skip lines that cannot be read")
     options.add_argument("--replicas", type=int, default=100, help="synthetic samples of p-values; 0: none")
-    options.add_argument("--seed", type=int, default=1)
     return options
 
 
