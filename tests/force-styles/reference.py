@@ -333,7 +333,7 @@ def main():
         done[f"bond-lsm_linked_breakable_{dim}d"] = force_test(folder, "bond", f"lsm_linked_breakable_{dim}d", scenes[dim], dim, breakable, free,
                                                                (breakable_text, "lsm/linked", "k 1"), both | {"break"}, post=pair_post(free_text))
         done[f"pair-lsm_free_{dim}d"] = force_test(folder, "pair", f"lsm_free_{dim}d", scenes[dim], dim, plain, free if dim == 2 else half,
-                                                   (free_text if dim == 2 else half_text, "lsm/free", "k 2\non 2"), both, post=bond_post(plain_text))
+                                                   (free_text if dim == 2 else half_text, "lsm/free", "k 2\non 1"), both, post=bond_post(plain_text))
     done["bond-hybrid_lsm_linked"] = force_test(folder, "bond", "hybrid_lsm_linked", scenes[2], 2, hybrid, free,
                                                 (hybrid_text, "hybrid lsm/linked harmonic", ""), both | {"break"}, post=pair_post(free_text))
     for name, onset, static in (("lsm_friction", "located", 0.6), ("lsm_friction_step", "step", 0.6), ("lsm_friction_static", "located", 0.9)):
@@ -341,7 +341,7 @@ def main():
                (2, 2): (1.1, 1.2, 0.3, 0.3, onset == "located")}
         text = "\n".join(f"{i} {j} {c[0]} {c[1]} {c[2]}" + (f" {c[3]}" if c[3] > c[2] else "") for (i, j), c in law.items())
         done[f"pair-{name}"] = force_test(folder, "pair", name, scenes[2], 2, plain, law,
-                                          (text, f"lsm/friction onset {onset}", "k 2\non 2\nkt 2\nmu 2"), both | {"stick", "slide", "begin"},
+                                          (text, f"lsm/friction onset {onset}", "k 2\non 1\nkt 2\nmu 2"), both | {"stick", "slide", "begin"},
                                           post=bond_post(plain_text))
     law = {pair: (1.0, 0.8, 0.6, 0.6, True) for pair in ((1, 1), (1, 2), (2, 2))}
     styles = ("pair_style lsm/friction\npair_coeff * * 1.0 0.8 0.6\nbond_style lsm/linked\nbond_coeff * 0.5\nangle_style none\n"
