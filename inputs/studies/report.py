@@ -119,8 +119,8 @@ def section(postproc, files, labels, model, kind, settings):
 
     def times(rescaled):
         words = [*named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood"]
-        text = postproc.text("intervals", *words, "--seed", 1, "--replicas", 0 if rescaled else settings.replicas,
-                             *["--rescale"] * rescaled, *postproc.base("times"))
+        text = postproc.text("intervals", *words, "--seed", 1, "--replicas", 0 if rescaled else settings.replicas, *["--rescale"] * rescaled,
+                             *postproc.base("times"))
         if rescaled:
             return postproc.figure("times", "Inter-event times divided by their mean",
                                    "Not in the paper; the scaling in which Corral (2004) found the "

@@ -404,6 +404,10 @@ class Study:
         """The numbers of a run in a part of the recipe by column."""
         return self.recipe(part, run, self.found(run))
 
+    def shown(self, part, run):
+        """The numbers as tables show them; NaN for one that is missing."""
+        return {name: float("nan" if text(one) == "" else text(one)) for name, one in self.row(part, run).items()}
+
     def done(self):
         """The runs but those that failed."""
         return [run for run in self.runs.values() if not run.failed]
@@ -447,7 +451,7 @@ class Study:
     def differences(self):
         """One line for all seeds of a model: means with errors of part `means`, and of the differences from the first model, seed by seed."""
         columns = [column for column in self.columns() if column != "seed"]
-        groups, values = {}, {run.name: (self.row("means", run), self.row("differences", run)) for run in self.done()}
+        groups, values = {}, {run.name: [self.shown("means", run), self.shown("differences", run)] for run in self.done()}
         for run in self.done():
             groups.setdefault(tuple(run.row.get(column, "") for column in columns), []).append(run)
         runs = list(self.runs.values())
