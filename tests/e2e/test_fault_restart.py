@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Robustness of the fault: damaged restart files, kills while these are written, two runs with the same
-files, and words and values that a run refuses."""
+"""Robustness of the fault: damaged restart files, kills while these are written, two runs with the same files, and values that
+a run continued from a restart file refuses."""
 import fcntl
 import os
 import random
@@ -29,27 +29,6 @@ def info(path):
 def restart_steps(folder="."):
     """Steps of the complete restart files, in order."""
     return sorted(int(path.name.split(".")[2]) for path in Path(folder).glob("a.restart.*.info") if path.name.split(".")[2].isdigit())
-
-
-WORDS = [("preset", "Single", "leaky, reflecting or absorbing"), ("hold", "Position", "stress or position"),
-         ("contacts", "ALL", "fault, all or smooth"), ("ruptures", "Yes", "no or yes"), ("leap", "on", "no or yes"),
-         ("faces", "grid", "random or none"), ("seeds", "none", "random or grid"), ("series", "foo", "yes or no"), ("history", "foo", "yes or no"),
-         ("overwrite", "1", "no or yes"), ("location", "true", "no or yes"), ("ledger", "true", "no or yes"), ("loose", "removed", "remove or keep"),
-         ("mass", "r4", "r2 or r3"), ("onset", "Step", "located or step"), ("picker", "median", "exponential, average or literal"),
-         ("dt", "0", "a number above 0"), ("dt", "fast", "a number above 0"), ("checkpoint", "0", "a whole number of at least 1"),
-         ("steps", "10.5", "a whole number of at least 0"), ("settle", "-1", "a whole number of at least 0")]
-
-
-def test_words(lmp):
-    for name, value, accepted in WORDS:
-        refused(lmp, small(**{"steps": 5, name: value}), f"Variable {name} is '{value}', but must be {accepted}")
-    refused(lmp, small(steps=5, prefix="a b"), "Variable prefix is 'a b', but must be a file name of letters, digits")
-    # On the command line LAMMPS takes a word with '-' for an option, but a script may set the variable.
-    Path("in.dash").write_text(f"variable prefix string -x\ninclude {INPUTS}/fault.in\n")
-    refused(lmp, ["-in", "in.dash", *small()[2:]], "ERROR: Variable prefix is '-x', but must be .* that does not begin with -")
-    # A variable that nothing reads.
-    said = run(lmp, small(stres=0.03, prefix="known", steps=1))
-    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["stres"]
 
 
 def test_values(lmp):
