@@ -353,7 +353,7 @@ def test_plans(studies):
 
 def test_recipes(studies, gnuplot, work):
     """Recipes use only commands and numbers that postproc has."""
-    studies("quick", ["shorten=2", "only=fault_120|_256"], table="quick")
+    studies("quick", ["shorten=2", "ranks=1", "only=fault_120|_256"], table="quick")
     for file in ("figures/fig12_fault_sizes.png", "figures/fig13_slider_sizes.svg", "figures/fault_fit.json", "figures/fault_scaling.png",
                  "report.html", "table.csv", "costs.csv"):
         assert os.path.getsize(f"quick/{file}") > 0, file
