@@ -257,7 +257,7 @@ def test_clocks_say_nothing(study, slider):
     lines = Path("whole.csv").read_text().splitlines(keepends=True)
     events = sum(line[0] not in "#e" for line in lines)
     many = " ".join(f"--size {size}" for size in range(1, 2500))
-    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", with_columns(other="len(found.sizes.sizes)").replace("--size 1e-3", many))
+    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", with_columns(other="found.sizes.sizes[-1].events").replace("--size 1e-3", many))
     Path("one.csv").write_text("".join(lines))
     run(study, "my.csv")
     assert Path("out/seen_1/numbers/sizes.json").stat().st_size > 100000
