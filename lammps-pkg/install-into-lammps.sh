@@ -137,7 +137,7 @@ if(PKG_LSM)
   target_link_libraries(lammps PRIVATE ZLIB::ZLIB)  # LSM
 endif()
 EOF
-if [ -f "$docs/Packages_list.rst" ]; then
+if [ -f "$docs/Commands_all.rst" ]; then
   while read -r kind page name what; do
     case $kind in
       command)
@@ -152,10 +152,14 @@ if [ -f "$docs/Packages_list.rst" ]; then
         ;;
     esac
   done <"$forms/lists"
-  before "$docs/Packages_list.rst" '   * - :ref:`MACHDYN <PKG-MACHDYN>`' <"$forms/packages"
+  table=$docs/Packages_list.rst # later versions have it within another page
+  [ -f "$table" ] || table=$docs/Packages.rst
+  before "$table" '   * - :ref:`MACHDYN <PKG-MACHDYN>`' <"$forms/packages"
   before "$docs/Packages_details.rst" '   * :ref:`MACHDYN <PKG-MACHDYN>`' <<<'   * :ref:`LSM <PKG-LSM>`'
   before "$docs/Packages_details.rst" '.. _PKG-MACHDYN:' <"$forms/details"
-  before "$docs/Build_extras.rst" '   * :ref:`MACHDYN <machdyn>`' <<<'   * :ref:`LSM <lsm>`'
+  for page in Build_extras Build_package; do
+    before "$docs/$page.rst" '   * :ref:`MACHDYN <machdyn>`' <<<'   * :ref:`LSM <lsm>`'
+  done
   before "$docs/Build_extras.rst" '.. _machdyn:' <"$forms/extras"
 fi
 cat <<EOF

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -14,27 +15,29 @@ PAGES = {page.name for page in (SOURCE / "lammps-pkg/doc").glob("*.rst")} - {"in
 SCENES = {path.stem for path in (SOURCE / "inputs").glob("*.in")}
 
 
-@pytest.fixture(scope="module")
-def tree(tmp_path_factory):
-    """The parts of LAMMPS' source that the script changes or the checks read, with the package."""
+# What the script changes and the checks read.
+PARTS = ["src/*.h", "src/.clang-format", "cmake/*", "tools/coding_standard/*.py", "doc/src/*.rst", "doc/utils/*"]
+
+
+@pytest.fixture(scope="module", params=("lammps-4Feb2025", "lammps-4Jul2026"))
+def tree(request, tmp_path_factory):
+    """Those parts of LAMMPS' source, with the package: of the build's version, and of the other one if it is in the cache."""
     if "LSM_LAMMPS_SRC" not in os.environ:
         pytest.skip("no source of LAMMPS")
-    work = tmp_path_factory.mktemp("tree")
-    source, tree = Path(os.environ["LSM_LAMMPS_SRC"]).parent, work / "lammps"
-    for part, endings in ("src", ("*.h",)), ("cmake", ("CMakeLists.txt", "all_o*.cmake")), ("tools/coding_standard", ("*.py",)):
-        for path in (path for ending in endings for path in (source / part).rglob(ending) if "LSM" not in path.parts):
-            target = tree / path.relative_to(source)
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, target)
-    if (source / "doc/utils").is_dir():
-        shutil.copytree(source / "doc", tree / "doc")
-    else:  # the cache leaves it out when it unpacks the archive
-        archive, *_ = [*source.parent.glob(f"{source.name}.tar.*"), None]
+    source = Path(os.environ["LSM_LAMMPS_SRC"]).parent
+    own = re.search(r'LAMMPS_VERSION "(.*)"', (source / "src/version.h").read_text())[1].replace(" ", "")
+    tree = tmp_path_factory.mktemp("tree")
+    if request.param == f"lammps-{own}" and (source / "doc/utils").is_dir():
+        for path in (path.relative_to(source) for path in source.rglob("*") if path.is_file()):
+            if any(fnmatch(path, part) for part in PARTS) and "LSM" not in path.parts:
+                (tree / path).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source / path, tree / path)
+    else:  # the cache leaves pages out when it unpacks the archive
+        archive, *_ = [*source.parent.glob(f"{request.param}.tar.*"), None]
         if not archive:
-            pytest.skip(f"no pages of LAMMPS in {source}, and no archive beside it")
-        run(Program("tar", "tar"), "-xf", archive, "-C", work, "--wildcards --no-anchored doc/src/*.rst doc/utils/*")
-        unpacked, = (path.parent for path in (work / "doc", *work.glob("lammps-*/doc")) if path.is_dir())
-        (unpacked / "doc").rename(tree / "doc")
+            pytest.skip(f"no {request.param}.tar.* in {source.parent}")
+        run(Program("tar", "tar"), "-xf", archive, "-C", tree, "--wildcards --no-anchored", PARTS)
+        tree, = (path for path in (tree, *tree.iterdir()) if (path / "doc").is_dir())
     assert run(INSTALL, tree).err == ""
     return tree
 
@@ -54,6 +57,17 @@ def test_lammps_own_checks(tree):
     for page in pages:
         for number, line in enumerate(page.read_text().splitlines(), 1):
             assert not any(re.search(pattern, line) for pattern in wrong), f"{page}:{number}: {line}"
+
+
+def test_format(tree):
+    if not shutil.which("clang-format"):
+        pytest.skip("no clang-format")
+    format = Program("clang-format", "clang-format", "--dry-run", "-Werror")
+    Path("probe.cpp").write_text("int  a ;")
+    assert run(format, "probe.cpp", status=None).status != 0
+    styles = [path for path in (tree / "src/LSM").glob("*.*") if not path.name.startswith("lsm_core_")]
+    assert len(styles) > 70
+    run(format, styles)
 
 
 def test_form_of_a_contribution(tree):
@@ -88,10 +102,10 @@ def test_tree_without_lists(work):
         (work / "lammps" / name).mkdir(parents=True)
     (work / "lammps/src/version.h").write_text('#define LAMMPS_VERSION "4 Feb 2025"\n')
     (work / "lammps/cmake/CMakeLists.txt").write_text("set(STANDARD_PACKAGES\n  MOLECULE)\n")
-    (work / "lammps/doc/src/Packages_list.rst").write_text("")
+    (work / "lammps/doc/src/Commands_all.rst").write_text("")
     said = run(INSTALL, work / "lammps").err.splitlines()
     assert all(line.startswith("install-into-lammps: warning: ") and ": no entry made, as there is no " in line for line in said)
-    assert sum("Packages_list.rst" in line for line in said) == 1 and sum("all_on.cmake" in line for line in said) == 1
+    assert sum("Packages.rst" in line for line in said) == 1 and sum("all_on.cmake" in line for line in said) == 1
     version = re.search(r"^  VERSION ([0-9.]+)$", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
     assert f'#define LSM_VERSION "{version}"\n' in (work / "lammps/src/LSM/lsm_version.h").read_text()
     list_file = ("set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\nif(PKG_LSM)\n  find_package(ZLIB REQUIRED)\n"
