@@ -18,6 +18,7 @@
 #include "files/text.h"
 #include "friction/force_laws.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_link_kernel.h"
 #include "lsm_ranks.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
@@ -30,6 +31,12 @@
 #include <utility>
 
 using namespace LAMMPS_NS;
+
+struct BondLSMLinked::Segment {
+  int type;
+  bool first_only;    // the force on the second particle is added by its owner
+  LSMLinkRows::Rows rows;
+};
 
 static const char cite_lsm[] =
     "Lattice solid fault (package LSM " LSM_VERSION "): doi:10.5194/npg-11-553-2004\n\n"
@@ -335,9 +342,12 @@ void BondLSMLinked::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->nbondtypes, ilo, ihi, error);
   const double k_one = utils::numeric(FLERR, arg[1], false, lmp);
   const double ratio_one = words == 3 ? utils::numeric(FLERR, arg[2], false, lmp) : 0.0;
-  if (k_one <= 0.0) error->all(FLERR, "Bond lsm/linked stiffness is {}, but must be > 0", k_one);
+  if (k_one <= 0.0)
+    error->all(FLERR, lsm_place(lmp, arg[1]), "Bond lsm/linked stiffness is {}, but must be > 0",
+               k_one);
   if (words == 3 && ratio_one <= 1.0)
-    error->all(FLERR, "Bond lsm/linked breaking ratio r_cut/r0 is {}, but must be > 1", ratio_one);
+    error->all(FLERR, lsm_place(lmp, arg[2]),
+               "Bond lsm/linked breaking ratio r_cut/r0 is {}, but must be > 1", ratio_one);
 
   for (int i = ilo; i <= ihi; i++) {
     k[i] = k_one;
@@ -351,20 +361,21 @@ void BondLSMLinked::coeff(int narg, char **arg)
 void BondLSMLinked::init_style()
 {
   if (!atom->radius_flag)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
   LSMScene::refuse_changing_radii(lmp, "Bond style lsm/linked");
   for (const char *makes_or_breaks : {"^bond/break", "^bond/create", "^bond/react", "^bond/swap"})
     for (const auto &other : modify->get_fix_by_style(makes_or_breaks))
       error->all(
-          FLERR,
+          FLERR, Error::NOLASTLINE,
           "Bond style lsm/linked does not work with fix {} of style {}, as the energy of its "
           "bonds would not be counted; use the breaking ratio of bond_coeff",
           other->id, other->style);
   collected_at = -1;
   for (int i = 1; i <= atom->nbondtypes; i++)    // fix adapt may have changed it
     if (setflag[i] && !(k[i] > 0.0))
-      error->all(FLERR, "Bond lsm/linked: k of type {} is {}, but must be > 0", i, k[i]);
+      error->all(FLERR, Error::NOLASTLINE, "Bond lsm/linked: k of type {} is {}, but must be > 0",
+                 i, k[i]);
 
   LSMScene::set_up_next_run(lmp);
   velocity = is_viscous() ? FixLSMVelocity::of(lmp) : nullptr;

@@ -12,13 +12,13 @@ BondStyle(lsm/linked,BondLSMLinked);
 
 #include "bond.h"
 #include "lsm_energy.h"
-#include "lsm_link_kernel.h"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
+namespace LSMLinkKernel {
+  struct Place;
+}
 
 class BondLSMLinked : public Bond, public LSMEnergySource {
  public:
@@ -61,12 +61,8 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   std::vector<double> delay;     // retardation time: viscosity over stiffness; 0 if there is none
   double maxrad = 0.0;
   const bool avx2;    // the processor has AVX2
-  struct Segment {    // links that are treated the same way
-    int type;
-    bool first_only;    // the force on the second particle is added by its owner
-    LSMLinkRows::Rows rows;
-  };
-  std::vector<Segment> segments;
+  struct Segment;
+  std::vector<Segment> segments;    // links that are treated the same way
   // links of a segment that broke in this evaluation
   std::vector<LSMLinkKernel::Place> broken_now;
   bigint collected_at = -1;    // step of the neighbour list that the links are from, -1 if outdated

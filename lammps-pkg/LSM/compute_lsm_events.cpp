@@ -9,6 +9,7 @@
 #include "files/state.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_mover.h"
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
@@ -40,7 +41,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       flush();
     })
 {
-  if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
+  if (igroup) error->all(FLERR, lsm_place(lmp, arg[1]), "Compute lsm/events must use group all");
   scalar_flag = 1;
   vector_flag = 1;
   extscalar = 0;
@@ -87,16 +88,18 @@ void ComputeLSMEvents::init()
     error->warning(FLERR, "More than one compute lsm/events");
 
   if (modify->get_fix_by_id(id_of_fix()) != recorder)
-    error->all(FLERR, "Compute lsm/events {}: its fix {} is gone; use uncompute to end recording",
-               id, id_of_fix());
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute lsm/events {}: its fix {} is gone; use uncompute to end recording", id,
+               id_of_fix());
   LSMScene::require_plain_units(lmp, "Compute lsm/events");
   sources.check(recorder, options.ledger);
   sources.find(options.ledger);
   if (settings.records_slip() && domain->triclinic)
-    error->all(FLERR, "Compute lsm/events {}: the box is triclinic, but must not be for {}", id,
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute lsm/events {}: the box is triclinic, but must not be for {}", id,
                settings.asked_by());
   if (settings.records_slip() && LSMScene::pairs_on_inner_level(update))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events {}: {} need one force of contacts a step; with run_style respa "
                "put pair on the outermost level",
                id, settings.asked_by());
@@ -104,12 +107,12 @@ void ComputeLSMEvents::init()
   if (leaps) sources.leap()->keep(2 * bigint(options.block) + 2);    // one is sent, one is filled
   if (leaps && !settings.history_file.empty())
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Compute lsm/events {}: history does not work with fix lsm/leap, as all intervals of a "
         "slip history have the same length; leave it out",
         id);
   if (opened && leaps != settings.explicit_times)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events {}: fix lsm/leap {} since the files of this compute were "
                "opened; uncompute it first, and use other files",
                id, leaps ? "was defined" : "is gone");
@@ -124,7 +127,8 @@ void ComputeLSMEvents::init()
 void ComputeLSMEvents::set_memory()
 {
   if (options.memory_time <= 0.0) return;
-  if (update->dt <= 0.0) error->all(FLERR, "Compute lsm/events memory needs a time step > 0");
+  if (update->dt <= 0.0)
+    error->all(FLERR, Error::NOLASTLINE, "Compute lsm/events memory needs a time step > 0");
   settings.picker.lambda = LSM::lambda_from_memory_time(options.memory_time, update->dt);
 }
 
@@ -176,7 +180,7 @@ void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
       (plane ? std::max(1.0, domain->prd[2] / settings.bin_width) : 1.0);
   constexpr auto most = LSM::SlipHistoryInfo::most_bins;
   if (bins > static_cast<double>(most))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events: bin {} makes {:.0f} bins of a box of length {}{}, expected at "
                "most {}",
                settings.bin_width, bins, domain->prd[0],
@@ -223,7 +227,7 @@ void ComputeLSMEvents::stop_on_failure()
   if (failure.empty()) return;
   const std::string what = failure;
   failure.clear();
-  error->all(FLERR, "{}", what);
+  error->all(FLERR, Error::NOLASTLINE, "{}", what);
 }
 
 // called at the beginning of each run: the state at this step is the first sample, unless the
@@ -259,7 +263,7 @@ void ComputeLSMEvents::check_box_along(int k)
   if (placed)
     for (const auto &ifix : modify->get_fix_list())
       if (ifix->box_change & (k ? Fix::BOX_CHANGE_Z : Fix::BOX_CHANGE_X))
-        error->all(FLERR,
+        error->all(FLERR, Error::NOLASTLINE,
                    "Compute lsm/events {}: fix {} changes the box along {}, which {} cannot follow",
                    id, ifix->id, name, settings.asked_by());
   if (period[k] == 0.0) {
@@ -270,7 +274,7 @@ void ComputeLSMEvents::check_box_along(int k)
   for (const auto &[key, file] : LSM::files_of(settings))
     if (placed || !file.empty())
       error->all(
-          FLERR,
+          FLERR, Error::NOLASTLINE,
           "Compute lsm/events {}: the box along {} was {} to {} when it began and is {} to {} "
           "now, which {} cannot follow; uncompute it first, and define another with other files",
           id, name, begin[k], begin[k] + period[k], domain->boxlo[d], domain->boxhi[d],
@@ -285,7 +289,7 @@ void ComputeLSMEvents::change_dt()
   for (const auto &[key, file] : LSM::files_of(settings))
     if (opened && !file.empty())
       error->all(
-          FLERR,
+          FLERR, Error::NOLASTLINE,
           "Compute lsm/events {}: the time step changed from {} to {}, but the header of file {} "
           "has one time step; continue from a restart file with other files",
           id, clock.dt, update->dt, file);
@@ -307,7 +311,7 @@ double ComputeLSMEvents::time_of(bigint step) const
 
 void ComputeLSMEvents::refuse_gap() const
 {
-  error->all(FLERR,
+  error->all(FLERR, Error::NOLASTLINE,
              "Compute lsm/events {}: the step was {} and is {} now, but {} follow the steps one by "
              "one; uncompute it first, and use other files",
              id, last_recorded, update->ntimestep, settings.asked_by());
@@ -513,8 +517,8 @@ LSM::SavedStream ComputeLSMEvents::unpack_state(const std::vector<double> &state
     Own::visit(own, from);
   }
   if (!saved.read(state, Own::NUMBERS))
-    error->all(FLERR, "Compute lsm/events {}: the restart file holds no state of such a compute",
-               id);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute lsm/events {}: the restart file holds no state of such a compute", id);
   last_recorded = own.last_recorded;
   ledger = own.ledger;
   clock = own.clock;

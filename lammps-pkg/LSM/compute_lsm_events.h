@@ -24,8 +24,6 @@ ComputeStyle(lsm/events,ComputeLSMEvents);
 #include "lsm_run_guard.h"
 
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 

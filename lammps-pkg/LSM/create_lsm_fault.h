@@ -11,14 +11,12 @@ CommandStyle(create_lsm_fault,CreateLSMFault);
 #define LMP_CREATE_LSM_FAULT_H
 
 #include "command.h"
-#include "files/keywords.h"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace LSM {
 class CubicLattice;
+struct Keyword;
 struct LatticeSettings;
 struct Packing;
 struct PackingSettings;
@@ -50,7 +48,8 @@ class CreateLSMFault : public Command {
   void create_cubic(const LSM::CubicLattice &);
   void parse(int, char **, LSM::PackingSettings &);
   void parse(int, char **, LSM::LatticeSettings &);
-  void read(class LSMKeywordReader, LSM::Keywords, const std::vector<const char *> &required);
+  void read(class LSMKeywordReader, std::vector<LSM::Keyword>,
+            const std::vector<const char *> &required);
   void pack(LSM::Packing &, const std::function<LSM::Packing()> &make);
   double mass_of(double radius) const;    // before the floor
   std::vector<double> masses_of(const LSM::Packing &, double length) const;

@@ -9,6 +9,7 @@
 #include "force.h"
 #include "group.h"
 #include "lsm_fixes.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -29,14 +30,17 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   const int dimension = domain->dimension;
   const std::string axes = std::string("xyz").substr(0, dimension);
   if (strlen(arg[3]) != 1 || axes.find(arg[3][0]) == std::string::npos)
-    error->all(FLERR, "Fix lsm/absorb direction across the border is '{}', but must be {}", arg[3],
+    error->all(FLERR, lsm_place(lmp, arg[3]),
+               "Fix lsm/absorb direction across the border is '{}', but must be {}", arg[3],
                dimension == 3 ? "x, y or z" : "x or y");
   static constexpr const char *names[] = {"impedance of P-waves", "impedance of S-waves", "length"};
   double value[3];
   for (int n = 0; n < 3; n++) {
-    value[n] = utils::numeric(FLERR, arg[n < 2 ? 4 + n : narg - 1], false, lmp);
+    const char *const word = arg[n < 2 ? 4 + n : narg - 1];
+    value[n] = utils::numeric(FLERR, word, false, lmp);
     if (!(value[n] >= 0.0))
-      error->all(FLERR, "Fix lsm/absorb {} is {}, but must be >= 0", names[n], value[n]);
+      error->all(FLERR, lsm_place(lmp, word), "Fix lsm/absorb {} is {}, but must be >= 0", names[n],
+                 value[n]);
   }
   const int across = arg[3][0] - 'x';
   for (int c = 0; c < 3; c++) dashpot[c] = value[c == across ? 0 : 1] * value[2];
@@ -48,8 +52,9 @@ void FixLSMAbsorb::init()
   LSMScene::require_verlet(lmp, "Fix lsm/absorb");
   LSMScene::require_plain_units(lmp, "Fix lsm/absorb");
   if (group->count(igroup) == 0)
-    error->all(FLERR, "Fix lsm/absorb {}: group {} has no particles, expected those of a border",
-               id, group->names[igroup]);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix lsm/absorb {}: group {} has no particles, expected those of a border", id,
+               group->names[igroup]);
   borders = lsm_fixes<FixLSMAbsorb>(modify);
   integrators = lsm_fixes<FixLSMNVE>(modify);
 }

@@ -13,8 +13,6 @@ FixStyle(lsm/absorb,FixLSMAbsorb);
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
 
-#include <vector>
-
 namespace LAMMPS_NS {
 
 class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {

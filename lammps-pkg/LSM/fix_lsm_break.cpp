@@ -27,13 +27,13 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, 
 void FixLSMBreak::init()
 {
   links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
-  if (!links) error->all(FLERR, "Fix LSM_BREAK needs bond style lsm/linked");
+  if (!links) error->all(FLERR, Error::NOLASTLINE, "Fix LSM_BREAK needs bond style lsm/linked");
   if (force->special_lj[1] != 0.0 || force->special_lj[2] != 1.0 || force->special_lj[3] != 1.0)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Breakable links need 'special_bonds lj 0 1 1', so that a pair is in contact "
                "only when its link is broken");
   if (LSMScene::is_rerun(lmp))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Bond style lsm/linked does not work with rerun where links can break: it "
                "would depend on the "
                "snapshots before; give bond_coeff without a breaking ratio");

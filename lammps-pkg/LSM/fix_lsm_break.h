@@ -13,8 +13,6 @@ FixStyle(LSM_BREAK,FixLSMBreak);
 
 #include "lsm_fix_state.h"
 
-#include <vector>
-
 namespace LAMMPS_NS {
 
 class FixLSMBreak : public LSMKeptFix<FixLSMBreak> {

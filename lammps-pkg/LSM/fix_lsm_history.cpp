@@ -28,19 +28,19 @@ FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) :
 void FixLSMHistory::init()
 {
   if (ipage_atom && (pgsize != neighbor->pgsize || oneatom != neighbor->oneatom))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/friction would lose its contacts: 'neigh_modify one {} page {}' "
                "became 'one {} page {}' after the first run; give neigh_modify one and page before "
                "it, or continue from a restart file",
                oneatom, pgsize, neighbor->oneatom, neighbor->pgsize);
   FixNeighHistory::init();
   if (update->whichflag == 2)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/friction does not work with minimize: friction depends on "
                "the path, so there is no "
                "energy to be minimized; use pair style lsm/free, or a run with viscosity");
   if (LSMScene::is_rerun(lmp))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/friction does not work with rerun: snapshots do not hold the "
                "elongations of the "
                "tangential springs; use pair style lsm/free for the energy of the normal springs");
@@ -102,12 +102,12 @@ void FixLSMHistory::unpack_restart(int nlocal, int nth)
     const std::string mine = law.empty() ? "a law without a state" : "the law " + law;
     const int size = (static_cast<int>(extra[m]) - 2) / count - 1;
     if (size != dnum)
-      error->one(FLERR,
+      error->one(FLERR, Error::NOLASTLINE,
                  "Pair style lsm/friction: the restart file holds contacts of another friction "
                  "law, with {} numbers each, but {} has {}",
                  size, mine, dnum);
     if (!law.empty() && law != law_of_file)
-      error->one(FLERR,
+      error->one(FLERR, Error::NOLASTLINE,
                  "Pair style lsm/friction: the restart file holds contacts of the law {}, expected "
                  "those of {}",
                  law_of_file, mine);

@@ -15,9 +15,7 @@ FixStyle(LSM_HISTORY,FixLSMHistory);
 #include "fix_neigh_history.h"
 #include "lsm_near_pairs.h"
 
-#include <string>
 #include <unordered_map>
-#include <vector>
 
 namespace LAMMPS_NS {
 

@@ -37,7 +37,7 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
   reset_dt();
 }
 
-LSM::Keywords FixLSMLeap::keywords()
+std::vector<LSM::Keyword> FixLSMLeap::keywords()
 {
   using LSM::Must;
   return {{"fast", &fast, Must::positive},
@@ -67,7 +67,8 @@ void FixLSMLeap::init()
 {
   plates = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id));
   if (!plates)
-    error->all(FLERR, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates", id, plates_id);
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates",
+               id, plates_id);
   if (plates->driving_velocity() == 0.0 && comm->me == 0)
     error->warning(FLERR,
                    "Fix lsm/leap {}: the plates of fix {} do not move, so there is nothing to leap "
@@ -75,7 +76,7 @@ void FixLSMLeap::init()
                    id, plates_id);
   if (fabs(plates->driving_velocity()) > fast)
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Fix lsm/leap {}: fast is {}, but must be at least the driving velocity {} of fix {}", id,
         fast, fabs(plates->driving_velocity()), plates_id);
   if (leaps() && slip * fast < 2.0 * fabs(plates->driving_velocity()) && comm->me == 0)
@@ -85,10 +86,11 @@ void FixLSMLeap::init()
                    "cut into pieces; use a larger fast, or no leaps",
                    id, slip, fast, fabs(plates->driving_velocity()));
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
-    error->all(FLERR, "More than one fix lsm/leap");
+    error->all(FLERR, Error::NOLASTLINE, "More than one fix lsm/leap");
 
   integrators = lsm_fixes<FixLSMNVE>(modify);
-  if (integrators.empty()) error->all(FLERR, "Fix lsm/leap {} needs a fix lsm/nve", id);
+  if (integrators.empty())
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/leap {} needs a fix lsm/nve", id);
 
   contacts.clear();
   for (auto *p : LSMScene::contact_styles(force))
@@ -96,7 +98,8 @@ void FixLSMLeap::init()
       if (leaps()) friction->record_what |= LSMEnergySource::SLIP_RATE;
       contacts.push_back(friction);
     }
-  if (contacts.empty()) error->all(FLERR, "Fix lsm/leap {} needs a pair style lsm/friction", id);
+  if (contacts.empty())
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/leap {} needs a pair style lsm/friction", id);
   reset_dt();
 }
 
@@ -219,6 +222,11 @@ void FixLSMLeap::end_of_step()
 // scalar = model time
 // vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps,
 // part of it in leaps, model time beyond the time of the steps, leaps that ended
+double FixLSMLeap::compute_scalar()
+{
+  return model_time(update->ntimestep);
+}
+
 double FixLSMLeap::compute_vector(int n)
 {
   const double values[6] = {factor,

@@ -10,13 +10,13 @@ FixStyle(lsm/leap,FixLSMLeap);
 #ifndef LMP_FIX_LSM_LEAP_H
 #define LMP_FIX_LSM_LEAP_H
 
-#include "files/keywords.h"
 #include "lsm_fix_state.h"
-#include "update.h"
 
 #include <deque>
-#include <string>
-#include <vector>
+
+namespace LSM {
+struct Keyword;
+}
 
 namespace LAMMPS_NS {
 
@@ -29,7 +29,7 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   void setup(int) override;
   void end_of_step() override;
   void reset_dt() override;
-  double compute_scalar() override { return model_time(update->ntimestep); }
+  double compute_scalar() override;
   double compute_vector(int) override;
 
   double model_time(bigint step) const;    // at one of the last steps
@@ -84,7 +84,7 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   double stops = 0.0;         // number of leaps that ended
   bool begun = false;         // the time step is fixed
 
-  LSM::Keywords keywords();
+  std::vector<LSM::Keyword> keywords();
   double time_of_steps() const;
   bool leaps() const;    // the plates are driven, and more slowly than the fast velocity
   void set_factor(double);

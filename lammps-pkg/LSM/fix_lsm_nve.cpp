@@ -82,7 +82,7 @@ int FixLSMNVE::setmask()
 void FixLSMNVE::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
   LSMScene::set_up_next_run(lmp);
   is_set_up = false;
@@ -199,7 +199,7 @@ void FixLSMNVE::setup(int /*vflag*/)
     }
   }
   if (check == ERROR)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Time step {} is above the stability limit {:.6g} of the {} ({}highest frequency "
                "{:.6g}); use a smaller time step or fix lsm/nve dtcheck warn",
                update->dt, dt_limit, what, ahead ? "" : "2 / ", omega);
@@ -283,7 +283,7 @@ void FixLSMNVE::add_longest_moves(std::vector<double> &of_blocks) const
 void FixLSMNVE::initial_integrate(int /*vflag*/)
 {
   if (!is_set_up)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Fix lsm/nve {}: a command of 'run ... every' has initialized LAMMPS, so that the "
                "rest of the run needs a set-up; leave out 'pre no'",
                id);

@@ -12,11 +12,6 @@ FixStyle(lsm/nve,FixLSMNVE);
 
 #include "lsm_fix_state.h"
 #include "lsm_mover.h"
-#include "lsm_scene.h"
-
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace LAMMPS_NS {
 

@@ -6,6 +6,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "files/parameters.h"
 #include "fix_lsm_nve.h"
 #include "fix_lsm_velocity.h"
 #include "force.h"
@@ -36,8 +37,8 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   for (int p : {LOWER, UPPER}) {
     plate[p].group = group->find(arg[3 + p]);
     if (plate[p].group < 0)
-      error->all(FLERR, "Fix lsm/plates {} group '{}' does not exist", p ? "upper" : "lower",
-                 arg[3 + p]);
+      error->all(FLERR, lsm_place(lmp, arg[3 + p]), "Fix lsm/plates {} group '{}' does not exist",
+                 p ? "upper" : "lower", arg[3 + p]);
     plate[p].bit = group->bitmask[plate[p].group];
     plate[p].side = p == LOWER ? -1.0 : 1.0;
   }
@@ -94,19 +95,20 @@ void FixLSMPlates::init()
   LSMScene::require_verlet(lmp, "Fix lsm/plates");
   LSMScene::require_plain_units(lmp, "Fix lsm/plates");
   if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Fix lsm/plates needs a box that is periodic in x and z and not in y "
                "(boundary p f p)");
 
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
-    error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/plates: atom {} is in both plates", shared);
 
   // the plates take over the velocity of their particles across the fault, so that one fix can
   // follow another; from one run to the next and in restarts the fix keeps it itself
   for (int p : {LOWER, UPPER}) {
     plate[p].mass = group->mass(plate[p].group);
     if (plate[p].mass <= 0.0)
-      error->all(FLERR, "Fix lsm/plates: the {} plate (group '{}') has no particles",
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix lsm/plates: the {} plate (group '{}') has no particles",
                  p ? "upper" : "lower", group->names[plate[p].group]);
     double velocity[3];
     group->vcm(plate[p].group, plate[p].mass, velocity);
@@ -125,7 +127,7 @@ void FixLSMPlates::init()
       const auto twin = dynamic_cast<FixLSMPlates *>(other);
       if (in_both(twin ? twin->moved_bits() : other->groupbit, moved_bits()))
         error->all(
-            FLERR,
+            FLERR, Error::NOLASTLINE,
             "Particles of the plates of fix {} are moved by fix {} as well; take them out of "
             "the group of that fix",
             id, other->id);

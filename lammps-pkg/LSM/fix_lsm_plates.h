@@ -10,11 +10,8 @@ FixStyle(lsm/plates,FixLSMPlates);
 #ifndef LMP_FIX_LSM_PLATES_H
 #define LMP_FIX_LSM_PLATES_H
 
-#include "files/parameters.h"
 #include "lsm_fix_state.h"
 #include "lsm_mover.h"
-
-#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -45,7 +42,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double loading = 1.0;    // present factor of the driving velocity, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   // the settings in effect, for headers
-  LSM::files::Parameters settings() const;
+  std::vector<std::pair<std::string, std::string>> settings() const;
   // energy of the motion of the plates across the fault
   double kinetic() const { return plate[0].kinetic() + plate[1].kinetic(); }
   template <class Self, class State> static void visit(Self &self, State &state)

@@ -3,6 +3,7 @@
 #include "fix_lsm_record.h"
 
 #include "atom.h"
+#include "compute_lsm_events.h"
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
@@ -24,6 +25,26 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   create_attribute = 1;    // new particles have not moved
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
+}
+
+void FixLSMRecord::setup(int /*vflag*/)
+{
+  owner->setup_record();
+}
+
+void FixLSMRecord::pre_exchange()
+{
+  owner->check_links();
+}
+
+void FixLSMRecord::end_of_step()
+{
+  owner->end_step();
+}
+
+void FixLSMRecord::post_run()
+{
+  owner->end_run();
 }
 
 // a run notices changes made before it in its setup

@@ -11,10 +11,11 @@ FixStyle(LSM_RECORD,FixLSMRecord);
 #ifndef LMP_FIX_LSM_RECORD_H
 #define LMP_FIX_LSM_RECORD_H
 
-#include "compute_lsm_events.h"
 #include "lsm_fix_state.h"
 
-#include <vector>
+namespace LSM {
+struct FaceDisplacement;
+}
 
 namespace LAMMPS_NS {
 
@@ -26,10 +27,10 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   {
     return FixConst::PRE_EXCHANGE | FixConst::END_OF_STEP | FixConst::POST_RUN;
   }
-  void setup(int) override { owner->setup_record(); }
-  void pre_exchange() override { owner->check_links(); }
-  void end_of_step() override { owner->end_step(); }
-  void post_run() override { owner->end_run(); }
+  void setup(int) override;
+  void pre_exchange() override;
+  void end_of_step() override;
+  void post_run() override;
   void reset_dt() override;
   void write_restart(FILE *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
@@ -51,7 +52,7 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   int unpack_exchange(int, double *) override;
   double memory_usage() override;
 
-  ComputeLSMEvents *owner = nullptr;    // set by the compute that made this fix
+  class ComputeLSMEvents *owner = nullptr;    // set by the compute that made this fix
   std::vector<double>
       saved_state;    // state of the compute in the last restart file, read or written
 

@@ -51,10 +51,11 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
   for (int s : {BELOW, ABOVE}) {
     const int which = group->find(arg[3 + s]);
     if (which < 0)
-      error->all(FLERR, "Fix lsm/traction {} group '{}' does not exist", s ? "upper" : "lower",
-                 arg[3 + s]);
+      error->all(FLERR, lsm_place(lmp, arg[3 + s]), "Fix lsm/traction {} group '{}' does not exist",
+                 s ? "upper" : "lower", arg[3 + s]);
     if (group->count(which) == 0)
-      error->all(FLERR, "Fix lsm/traction {} group '{}' has no particles, expected a face",
+      error->all(FLERR, lsm_place(lmp, arg[3 + s]),
+                 "Fix lsm/traction {} group '{}' has no particles, expected a face",
                  s ? "upper" : "lower", arg[3 + s]);
     side[s] = group->bitmask[which];
     traction[s] = arg[5 + s];
@@ -81,9 +82,10 @@ void FixLSMTraction::init()
 {
   LSMScene::require_verlet(lmp, "Fix lsm/traction");
   if (!dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1)))
-    error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/traction needs pair style lsm/friction");
   if (!modify->get_fix_by_id(std::string(id) + "_store"))
-    error->all(FLERR, "Fix lsm/traction {} needs its fix {}_store, which was deleted", id, id);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix lsm/traction {} needs its fix {}_store, which was deleted", id, id);
 }
 
 const double *FixLSMTraction::contact_radii() const
@@ -113,14 +115,16 @@ std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
   }
   auto *const variable = input->variable;
   const int which = variable->find(text.substr(2).c_str());
-  if (which < 0) error->all(FLERR, "Fix lsm/traction: variable {} does not exist", text.substr(2));
+  if (which < 0)
+    error->all(FLERR, Error::NOLASTLINE, "Fix lsm/traction: variable {} does not exist",
+               text.substr(2));
   if (variable->equalstyle(which))
     all.assign(all.size(), variable->compute_equal(which));
   else if (variable->atomstyle(which))
     variable->compute_atom(which, igroup, all.data(), 1, 0);
   else
-    error->all(FLERR, "Fix lsm/traction: variable {} must be of style equal or atom",
-               text.substr(2));
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix lsm/traction: variable {} must be of style equal or atom", text.substr(2));
   return all;
 }
 
@@ -144,14 +148,15 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
       continue;
     if (found >= 0)
       error->one(
-          FLERR,
+          FLERR, Error::NOLASTLINE,
           "Fix lsm/traction: particle {} faces particles {} and {}, but must face one, as in "
           "create_lsm_fault lattice or with mirror yes",
           atom->tag[i], atom->tag[found], atom->tag[j]);
     found = j;
   }
   if (found < 0)
-    error->one(FLERR, "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
+    error->one(FLERR, Error::NOLASTLINE,
+               "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
   return found;
 }
 
@@ -236,18 +241,18 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
       const int j = partner(i, face[1 - s]);
       const double k = pair->stiffness(atom->type[i], atom->type[j]);
       if (k == 0.0)
-        error->one(FLERR,
+        error->one(FLERR, Error::NOLASTLINE,
                    "Fix lsm/traction: types {} and {} of particles that face each other do not "
                    "touch by pair_coeff",
                    atom->type[i], atom->type[j]);
       if (spaced && fabs(atom->x[i][0] - atom->x[j][0]) > 1e-6 * radius[i])
-        error->one(FLERR,
+        error->one(FLERR, Error::NOLASTLINE,
                    "Fix lsm/traction: with share spacing particles {} and {}, which face each "
                    "other, must be at the same x",
                    atom->tag[i], atom->tag[j]);
       if (!(normal[i] >= 0.0) || !std::isfinite(normal[i]) || !std::isfinite(shear[i]) ||
           !std::isfinite(dip[i]))
-        error->one(FLERR,
+        error->one(FLERR, Error::NOLASTLINE,
                    "Fix lsm/traction: normal and shear traction of particle {} are {} and {}, "
                    "but must be >= 0 and finite",
                    atom->tag[i], normal[i], std::isfinite(dip[i]) ? shear[i] : dip[i]);
@@ -262,13 +267,13 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
           : 0.5 * (r + load[NORMAL][i] / k - radius[i] - radius[j]);
       if (fabs(more) > 0.05 * radius[i])
         error->one(
-            FLERR,
+            FLERR, Error::NOLASTLINE,
             "Fix lsm/traction: particle {} would overlap its partner by {:.3g} of its "
             "radius, but may by a tenth; its contact is too soft for the normal traction, or "
             "the faces do not touch",
             atom->tag[i], 2.0 * more / radius[i]);
       if (2.0 * more > neighbor->skin)
-        error->one(FLERR,
+        error->one(FLERR, Error::NOLASTLINE,
                    "Fix lsm/traction: particle {} would overlap its partner by {:.3g}, but the "
                    "lists of neighbors reach only the skin {} beyond particles that touch; give a "
                    "larger skin, or a stiffer contact",

@@ -13,9 +13,6 @@ FixStyle(lsm/traction,FixLSMTraction);
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
 
-#include <string>
-#include <vector>
-
 namespace LAMMPS_NS {
 
 class FixLSMTraction :

@@ -40,8 +40,8 @@ FixLSMVelocity *FixLSMVelocity::of(LAMMPS *lmp)
   if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY 3 0 0 1");
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
-    lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which the package creates itself",
-                    ID);
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Fix {} must be of style LSM_VELOCITY, which the package creates itself", ID);
   return one;
 }
 
@@ -74,14 +74,14 @@ void FixLSMVelocity::init()
          });
   if (!used || update->whichflag != 1) return;
   for (const auto &leap : modify->get_fix_by_style("^lsm/leap"))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
                "whose blocks move faster than in model time",
                leap->id);
   extrapolated = 0;
   for (const auto *mover : lsm_fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
   if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(lmp))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
                "velocities to the time of the forces");
 }

@@ -15,8 +15,6 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
 
-#include <cstdint>
-
 namespace LAMMPS_NS {
 
 /// Stores velocities at the time of the positions, of the particles of this rank and of ghosts. The

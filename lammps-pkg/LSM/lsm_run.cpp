@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // lsm_run N prefix PREFIX every M [after STEP] [note NAME] ...
 void LSMRun::command(int narg, char **arg)
 {
-  if (narg < 1) error->all(FLERR, "lsm_run expects a number of steps, prefix, and every");
+  if (narg < 1) utils::missing_cmd_args(FLERR, "lsm_run (steps, prefix, every)", error);
   const bigint steps = utils::bnumeric(FLERR, arg[0], false, lmp);
   std::uint64_t of_piece = 0, first = 0;
   bool overwrite = false, resume = false, series = true, ruptures = true, history = true;

@@ -12,9 +12,6 @@ CommandStyle(lsm_run,LSMRun);
 
 #include "command.h"
 
-#include <string>
-#include <vector>
-
 namespace LAMMPS_NS {
 
 class LSMRun : public Command {

@@ -12,10 +12,6 @@ CommandStyle(lsm_variables,LSMVariables);
 #define LMP_LSM_VARIABLES_H
 
 #include "command.h"
-#include "files/parameters.h"
-
-#include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 struct LSMSceneVariable;
@@ -27,11 +23,11 @@ class LSMVariables : public Command {
   void command(int, char **) override;
 
  private:
-  std::string restart;               // the file that the run continues from, or ""
-  LSM::files::Parameters saved;      // the parameters in its .info file
-  std::vector<std::string> given;    // variables that were set before
-  std::vector<std::string> known;    // others that the script reads
-  std::string defaults;              // NAME=VALUE| of those that were not
+  std::string restart;    // the file that the run continues from, or ""
+  std::vector<std::pair<std::string, std::string>> saved;    // the parameters in its .info file
+  std::vector<std::string> given;                            // variables that were set before
+  std::vector<std::string> known;                            // others that the script reads
+  std::string defaults;                                      // NAME=VALUE| of those that were not
 
   bool is_given(const std::string &) const;
   void refuse_repeated(const LSMVariableTable &) const;

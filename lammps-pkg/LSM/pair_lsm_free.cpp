@@ -19,6 +19,7 @@
 #include "friction/force_laws.h"
 #include "lsm_contact_recorder.h"
 #include "lsm_fixes.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
@@ -154,7 +155,7 @@ void PairLSMFree::check_special() const
 {
   const double *factor = force->special_lj;
   if (atom->nbonds > 0 && (factor[1] != 0.0 || factor[2] != 1.0 || factor[3] != 1.0))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/*: the special_bonds factors lj are {} {} {}, but must be 0 1 1, so "
                "that linked particles "
                "are no contact pairs and all others are",
@@ -194,7 +195,8 @@ void PairLSMFree::coeff(int narg, char **arg)
   const bool off = narg == 3 && strcmp(arg[2], "off") == 0;
   if (!off) parse_law(narg - 3, arg + 3);
   const double k_one = off ? 0.0 : utils::numeric(FLERR, arg[2], false, lmp);
-  if (!off && k_one <= 0.0) error->all(FLERR, "{} k is {}, but must be > 0", who, k_one);
+  if (!off && k_one <= 0.0)
+    error->all(FLERR, lsm_place(lmp, arg[2]), "{} k is {}, but must be > 0", who, k_one);
   if (!allocated) allocate();
   LSMScene::set_up_next_run(lmp);
 
@@ -202,7 +204,8 @@ void PairLSMFree::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
   if (MAX(jlo, ilo) > jhi)
-    error->all(FLERR, "{}: pair_coeff {} {} names no pair of types I <= J", who, arg[0], arg[1]);
+    error->all(FLERR, lsm_place(lmp, arg[1]), "{}: pair_coeff {} {} names no pair of types I <= J",
+               who, arg[0], arg[1]);
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       setflag[i][j] = 1;
@@ -217,7 +220,8 @@ void PairLSMFree::coeff(int narg, char **arg)
 void PairLSMFree::init_style()
 {
   if (!atom->radius_flag)
-    error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   LSMScene::set_up_next_run(lmp);
   velocity = is_viscous() ? FixLSMVelocity::of(lmp) : nullptr;
   const auto others = lsm_fixes<LSMContactRadii>(modify);
@@ -225,13 +229,13 @@ void PairLSMFree::init_style()
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
   if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/* does not work under hybrid/scaled, as recorded energies "
                "and the time-step check "
                "would not be scaled; use pair_style hybrid or hybrid/overlay");
   if (update->whichflag && (!compute_flag || !force->pair->compute_flag))
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
 
   // the list of a sub-style of hybrid may hold pairs of other sub-styles; with charges, linked
@@ -316,11 +320,12 @@ double PairLSMFree::init_one(int i, int j)
 {
   if (setflag[i][j] == 0)
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch",
         i, j);
   if (on[i][j] && !(k[i][j] > 0.0))
-    error->all(FLERR, "Pair lsm/*: k of types {} {} is {}, but must be > 0", i, j, k[i][j]);
+    error->all(FLERR, Error::NOLASTLINE, "Pair lsm/*: k of types {} {} is {}, but must be > 0", i,
+               j, k[i][j]);
   k[j][i] = k[i][j];
   delay[j][i] = delay[i][j];
   on[j][i] = active[i][j] = active[j][i] = on[i][j];

@@ -21,6 +21,7 @@
 #include "friction/friction_contact.h"
 #include "friction/friction_laws.h"
 #include "lsm_contact_recorder.h"
+#include "lsm_friction_loop.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
@@ -214,7 +215,7 @@ void PairLSMFriction::settings(int narg, char **arg)
   while (words < narg && strcmp(arg[words], "onset") != 0) words++;
   if (words > 0) wanted = LSMLawTable::find(arg[0]);
   if (!wanted)
-    error->all(FLERR,
+    error->all(FLERR, lsm_place(lmp, arg[0]),
                "Pair style lsm/friction expects [LAW [COEFFICIENTS]] [onset located|step] with one "
                "of the laws {}, got '{}'",
                LSMLawTable::names(), arg[0]);
@@ -227,7 +228,8 @@ void PairLSMFriction::settings(int narg, char **arg)
   if (common.empty()) return;
   const bool number = utils::is_double(common[0]);
   if (number == table.law->named)
-    error->all(FLERR, "Pair style lsm/friction {} expects {} or onset located|step, got '{}'",
+    error->all(FLERR, lsm_place(lmp, arg[1]),
+               "Pair style lsm/friction {} expects {} or onset located|step, got '{}'",
                table.law->name, table.law->named ? "pairs NAME VALUE" : "numbers", common[0]);
   char kt[] = "1.0", *only_kt[] = {kt};
   parse_law(1, only_kt);    // reports errors in the coefficients of pair_style right away
@@ -247,18 +249,18 @@ void PairLSMFriction::init_style()
   // forces at displaced positions would slide contacts
   if (!modify->get_fix_by_style("^numdiff").empty())
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
 
   if (force->newton_pair && comm->style == Comm::TILED)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/friction with newton on does not work with comm_style tiled; use "
                "newton off");
   if (table.law->needs_time && LSMScene::pairs_on_inner_level(update))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style lsm/friction: law {} needs the time of a step; with run_style respa put "
                "pair on the outermost level",
                table.law->name);
@@ -279,7 +281,9 @@ void PairLSMFriction::init_style()
     fix_history->pair = this;
   } else {
     fix_history = dynamic_cast<FixLSMHistory *>(modify->get_fix_by_id(id_history));
-    if (!fix_history) error->all(FLERR, "Could not find the contact history of pair lsm/friction");
+    if (!fix_history)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Could not find the contact history of pair lsm/friction");
   }
   near.keep_states(*fix_history, size_history(), near_reach());
 }
@@ -293,7 +297,7 @@ void PairLSMFriction::check_periods() const
       if (on[i][j]) reach = MAX(reach, maxrad[i] + maxrad[j] + neighbor->skin);
   for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && domain->prd[c] < 2.0 * reach)
-      error->all(FLERR,
+      error->all(FLERR, Error::NOLASTLINE,
                  "Pair style lsm/friction: the period of the box in {} is {:.6g}, but must be at "
                  "least {:.6g} (twice the largest contact distance with the neighbor skin), as a "
                  "pair would meet itself on both sides",
@@ -313,7 +317,8 @@ double PairLSMFriction::init_one(int i, int j)
   // takes the next law of this name that fits; within a run it does not go back
   while (!running->fits(values.data())) {
     if (running == &LSMLawTable::all().back() || strcmp((++running)->name, table.law->name) != 0)
-      error->all(FLERR, "Pair lsm/friction: the law {} cannot be run with the coefficients{}",
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair lsm/friction: the law {} cannot be run with the coefficients{}",
                  table.law->name, types);
   }
   return cut;

@@ -11,12 +11,9 @@ PairStyle(lsm/friction,PairLSMFriction);
 #ifndef LMP_PAIR_LSM_FRICTION_H
 #define LMP_PAIR_LSM_FRICTION_H
 
-#include "lsm_friction_loop.h"
+#include "lsm_friction_host.h"
 #include "lsm_law_table.h"
 #include "pair_lsm_free.h"
-
-#include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 

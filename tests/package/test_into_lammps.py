@@ -14,7 +14,6 @@ INSTALL = Program("install-into-lammps", SOURCE / "lammps-pkg/install-into-lammp
 PAGES = {page.name for page in (SOURCE / "lammps-pkg/doc").glob("*.rst")} - {"index.rst"}
 SCENES = {path.stem for path in (SOURCE / "inputs").glob("*.in")}
 
-
 # What the script changes and the checks read.
 PARTS = ["src/*.h", "src/.clang-format", "cmake/*", "tools/coding_standard/*.py", "doc/src/*.rst", "doc/utils/*"]
 

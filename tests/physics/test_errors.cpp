@@ -76,7 +76,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"length 40 width 20 seed 1 loose maybe", {"loose is 'maybe', but must be keep or remove"}},
       {"length 40 width 20 seed 1 mass r4 1", {"mass is 'r4', but must be r2 or r3"}},
       {"length 40 width 20 seed 1 mass r3 0", {"mass value 2 is 0, but must be > 0"}},
-      {"length 40 width 20 seed 1 mass r3", {"mass needs 2 values"}},
+      {"length 40 width 20 seed 1 mass r3", {"mass (2 values) command: missing argument"}},
       {"length 40 width 20 seed 1 massstep 0.1 -1", {"massstep value 2 is -1, but must be >= 0"}},
       {"length 40 width 20 seed 1 massfloor -1", {"massfloor is -1, but must be >= 0"}}};
   for (const auto &one : geometry)

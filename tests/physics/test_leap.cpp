@@ -483,7 +483,8 @@ TEST_F(Leap, Refusals) {
                {"fix leap all lsm/leap plates calm -1\n", "calm is -1, but must be >= 0"},
                {"fix leap all lsm/leap plates speed 1\n",
                 "Unknown fix lsm/leap keyword 'speed'; accepted are fast"},
-               {"fix leap all lsm/leap plates fast\n", "keyword fast needs a value"},
+               {"fix leap all lsm/leap plates fast\n",
+                "fix lsm/leap fast (a value) command: missing argument"},
                {"fix leap all lsm/leap plates fast 0.01\nfix more all lsm/leap plates fast 0.01\n",
                 "More than one fix lsm/leap"}};
   for (const auto &one : cases)

@@ -14,10 +14,10 @@
 namespace {
 
 using namespace LAMMPS_NS;
+using LSM::friction_contact::Step;
 using LSM::friction_contact::Vector;
 using LSMFriction::Loop;
 using LSMFriction::Scene;
-using LSMFriction::Step;
 
 constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 

@@ -39,11 +39,11 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
   const std::string &id = settings_.name;
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events does not work with minimize: it records the steps of a "
                "run; uncompute it first");
   if (LSMScene::is_rerun(lmp))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events does not work with rerun: it records the steps of a run; "
                "use thermo keyword pe for the energies of snapshots");
 
@@ -51,7 +51,7 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == recorder) break;
     if (ifix->pre_exchange_migrate)
-      error->all(FLERR,
+      error->all(FLERR, Error::NOLASTLINE,
                  "Compute lsm/events {} must be defined before fix {}, which moves particles to "
                  "other ranks",
                  id, ifix->id);
@@ -60,7 +60,7 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
     for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
       for (const auto &other : modify->get_fix_by_style(adds_or_takes))
         error->all(
-            FLERR,
+            FLERR, Error::NOLASTLINE,
             "Compute lsm/events {}: the energy ledger does not include the particles that fix {} "
             "adds or removes; use ledger no and no tolerance",
             id, other->id);
@@ -76,11 +76,12 @@ void LSMEventSources::find(bool ledger)
   links_ = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
   const auto contacts = LSMScene::contact_styles(force);
   if (!links_ && contacts.empty())
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                "lsm/friction");
   if (settings_.records_slip() && !force->pair_match("lsm/friction", 1))
-    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", settings_.asked_by());
+    error->all(FLERR, Error::NOLASTLINE, "Compute lsm/events {} needs pair style lsm/friction",
+               settings_.asked_by());
 
   styles_.clear();
   if (links_) styles_.push_back(links_);
@@ -100,7 +101,7 @@ void LSMEventSources::find(bool ledger)
   for (const auto &ifix : modify->get_fix_list()) {
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) {
       if (plates_)
-        error->all(FLERR,
+        error->all(FLERR, Error::NOLASTLINE,
                    "Compute lsm/events {}: fixes {} and {} are both lsm/plates, expected one",
                    settings_.name, plates_->id, p->id);
       plates_ = p;
@@ -117,14 +118,14 @@ std::pair<int, int> LSMEventSources::bits_of(const char *keyword, const LSM::Two
 {
   if (groups.lower.empty())
     error->all(
-        FLERR,
+        FLERR, Error::NOLASTLINE,
         "Compute lsm/events {} needs the keyword {} with the groups below and above the fault",
         settings_.asked_by(), keyword);
   const auto bit = [&](const std::string &name) {
     const int found = group->find(name);
     if (found < 0 || group->count(found) == 0)
-      error->all(FLERR, "Compute lsm/events {}: {} has the group {}, which {}", settings_.name,
-                 keyword, name, found < 0 ? "does not exist" : "has no particles");
+      error->all(FLERR, Error::NOLASTLINE, "Compute lsm/events {}: {} has the group {}, which {}",
+                 settings_.name, keyword, name, found < 0 ? "does not exist" : "has no particles");
     return group->bitmask[found];
   };
   return {bit(groups.lower), bit(groups.upper)};
@@ -135,7 +136,7 @@ void LSMEventSources::find_sides(LSMEnergySource &style) const
 {
   const auto [lower, upper] = bits_of("sides", settings_.sides);
   if (style.lower_side && (style.lower_side != lower || style.upper_side != upper))
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Compute lsm/events {}: sides differ from those of another compute lsm/events",
                settings_.name);
   style.lower_side = lower;
@@ -162,10 +163,12 @@ void LSMEventSources::find_driving(LSM::EventSettings &settings) const
   if (settings.finds_ruptures()) find_velocity(settings);
   if (settings.modulus > 0.0) return;
   if (domain->dimension == 3)
-    error->all(FLERR, "Compute lsm/events {} needs the keyword modulus in three dimensions",
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute lsm/events {} needs the keyword modulus in three dimensions",
                settings.asked_by());
   if (!links_)
-    error->all(FLERR, "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
                settings.asked_by());
   int dim;
   const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
@@ -178,7 +181,8 @@ void LSMEventSources::find_velocity(LSM::EventSettings &settings) const
   if (settings.driving == 0.0 && plates_)
     settings.driving = 2.0 * fabs(plates_->driving_velocity());
   if (settings.driving == 0.0)
-    error->all(FLERR, "Compute lsm/events {} needs {}, or the keyword driving", settings.asked_by(),
+    error->all(FLERR, Error::NOLASTLINE, "Compute lsm/events {} needs {}, or the keyword driving",
+               settings.asked_by(),
                plates_ ? "a velocity of fix lsm/plates that is not 0" : "fix lsm/plates");
 }
 

@@ -69,7 +69,7 @@ void LSMRunGuard::check_step(const LSM::EnergyLedger &ledger,
 
 void LSMRunGuard::stop_run(const std::string &what, const std::string &left)
 {
-  error->all(FLERR,
+  error->all(FLERR, Error::NOLASTLINE,
              "Run stopped at step {}: {}. {}; use a smaller time step or start from an earlier "
              "restart",
              update->ntimestep, what, left);

@@ -172,20 +172,22 @@ namespace LSMScene {
   void require_plane(LAMMPS *lmp, const std::string &who)
   {
     if (lmp->domain->dimension != 2)
-      lmp->error->all(FLERR, "{} needs a 2-dimensional simulation (dimension 2)", who);
+      lmp->error->all(FLERR, Error::NOLASTLINE, "{} needs a 2-dimensional simulation (dimension 2)",
+                      who);
     require_verlet(lmp, who);
   }
 
   void require_verlet(LAMMPS *lmp, const std::string &who)
   {
     if (utils::strmatch(lmp->update->integrate_style, "^respa"))
-      lmp->error->all(FLERR, "{} does not work with run_style respa", who);
+      lmp->error->all(FLERR, Error::NOLASTLINE, "{} does not work with run_style respa", who);
   }
 
   void require_plain_units(LAMMPS *lmp, const std::string &who)
   {
     if (lmp->force->ftm2v != 1.0 || lmp->force->mvv2e != 1.0)
-      lmp->error->all(FLERR, "{} does not work with units {}; use lj, si, cgs, micro or nano", who,
+      lmp->error->all(FLERR, Error::NOLASTLINE,
+                      "{} does not work with units {}; use lj, si, cgs, micro or nano", who,
                       lmp->update->unit_style);
   }
 
@@ -200,7 +202,7 @@ namespace LSMScene {
     for (const auto &fix : lmp->modify->get_fix_list())
       if (fix->diam_flag)
         lmp->error->all(
-            FLERR,
+            FLERR, Error::NOLASTLINE,
             "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
             "read at its beginning and when neighbor lists are built; change them between two runs",
             who, fix->id);

@@ -4,10 +4,9 @@
 #ifndef LMP_LSM_FRICTION_LOOP_H
 #define LMP_LSM_FRICTION_LOOP_H
 
-#include "friction/friction_contact.h"
 #include "friction/friction_law.h"
 #include "lsm_contact_recorder.h"
-#include "lsm_contacts.h"
+#include "lsm_friction_host.h"
 #include "lsm_link_kernel.h"
 #include "lsm_type_pairs.h"
 
@@ -19,24 +18,6 @@
 
 namespace LAMMPS_NS {
 namespace LSMFriction {
-  using namespace LSM::friction_contact;
-
-  /// What the loop leaves to LAMMPS, as few scenes need it.
-  class Host {
-   public:
-    virtual ~Host() noexcept(false) {}    // as LAMMPS' own base classes
-
-    /// Whether a pair must not interact. Called only if the scene is screened.
-    virtual bool is_left_out(int place) const = 0;
-    /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
-    /// this rank's share of its power. Called only if the scene is viscous.
-    virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
-    /// Tallies LAMMPS' own energy and virial, from the force on the first particle and the vector
-    /// to it from the second. Called only by a recorder that tallies.
-    virtual void tally(const LSMContacts::Pair &, double energy, const Vector &force,
-                       const Vector &del) = 0;
-  };
-
   /// What the loop reads and writes.
   struct Scene {
     LSMContacts &contacts;
@@ -46,7 +27,7 @@ namespace LSMFriction {
     double *f;          ///< forces, to which those of contacts are added
     int nlocal;         ///< particles of this rank
     bool newton;        ///< a force on ghosts, too, which their ranks receive
-    Step step;
+    friction::Step step;
     double reach;                     ///< up to this distance, in sums of radii, pairs without
                                       ///< contact have a state
     const LSMTypePairs<double> &k;    ///< normal stiffness
@@ -87,7 +68,7 @@ namespace LSMFriction {
               const bool both = is_both(site);
               const Push push = block.push(lane);
               if constexpr (Recorder::records) record(site, false, push, both);
-              keep<Law, DIM>(push.step, contacts.vector(place), h);
+              friction::keep<Law, DIM>(push.step, contacts.vector(place), h);
               add_forces(site, push, both);
               continue;
             }
@@ -95,11 +76,12 @@ namespace LSMFriction {
           bool touch = before;
           if (!before && place < contacts.kept_before()) {
             const double *const d = contacts.vector_before(place), r0 = contacts.pair(place).r0;
-            keep_near<DIM>(square_of<DIM>(d) <= reach_sq * r0 * r0, d, touch, h);
+            friction::keep_near<DIM>(friction::square_of<DIM>(d) <= reach_sq * r0 * r0, d, touch,
+                                     h);
           } else if (!before)
-            touch = h[Is::STATUS] == NEAR;
+            touch = h[Is::STATUS] == friction::NEAR;
           evaluate(place, touch, h);
-          const bool after = touch && h[Is::STATUS] != NEAR;
+          const bool after = touch && h[Is::STATUS] != friction::NEAR;
           if (after != before) contacts.set_touching(place, after);
         }
       }
@@ -108,7 +90,7 @@ namespace LSMFriction {
 
    private:
     using Site = LSMContacts::Pair;
-    using Is = Kept<DIM>;
+    using Is = friction::Kept<DIM>;
     static constexpr int LANES = 32, AHEAD = 8, size = Is::LAW_STATE + Law::state_size;
     const Scene &scene;
     LSMContacts &contacts;
@@ -117,21 +99,21 @@ namespace LSMFriction {
     double *const f;
     const int nlocal;
     const double reach_sq;
-    const Step step;
+    const friction::Step step;
     const bool side_by_side;
     Recorder recorder;
 
     struct Geometry {
       double rsq, r, n[DIM];
 
-      explicit Geometry(const double *d) : rsq(square_of<DIM>(d)), r(sqrt(rsq))
+      explicit Geometry(const double *d) : rsq(friction::square_of<DIM>(d)), r(sqrt(rsq))
       {
         const double rinv = r > 0.0 ? 1.0 / r : 0.0;
         for (int c = 0; c < DIM; c++) n[c] = d[c] * rinv;
       }
     };
 
-    using Done = std::conditional_t<DIM == 3, VectorStep, LSM::FrictionStep>;
+    using Done = std::conditional_t<DIM == 3, friction::VectorStep, LSM::FrictionStep>;
     struct Push {
       double f[DIM];                // on the first particle
       double normal, tangential;    // energies of the springs
@@ -142,7 +124,7 @@ namespace LSMFriction {
     {
       const double normal = LSM::Spring::energy(k, stretch);
       if constexpr (DIM == 3) {
-        Push push = {{}, normal, 0.5 * kt * dot(s.xi, s.xi), s};
+        Push push = {{}, normal, 0.5 * kt * friction::dot(s.xi, s.xi), s};
         for (int c = 0; c < 3; c++) push.f[c] = fn * g.n[c] - kt * s.xi[c];
         return push;
       } else
@@ -163,7 +145,7 @@ namespace LSMFriction {
 
       Push push(int n) const
       {
-        const bool slides = Law::needs_sliding && h[Is::STATUS][n] == SLIDES;
+        const bool slides = Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES;
         const LSM::FrictionStep s = {h[Is::XI][n], 0.0, slip[n], dissipated[n], slides};
         return {{fx[n], fy[n]}, normal[n], tangential[n], s};
       }
@@ -177,15 +159,16 @@ namespace LSMFriction {
           });
           const LSM::FrictionContact contact{
               LSM::contact_normal_force(k[n], g.r, r0[n]), h[Is::XI][n],
-              displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]), time,
-              Law::needs_sliding && h[Is::STATUS][n] == SLIDES};
+              friction::displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]),
+              time, Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES};
           const Push done =
               push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
           rsq[n] = g.rsq;
           fx[n] = done.f[0];
           fy[n] = done.f[1];
           h[Is::XI][n] = done.step.xi;
-          if constexpr (Law::needs_sliding) h[Is::STATUS][n] = done.step.sliding ? SLIDES : STICKS;
+          if constexpr (Law::needs_sliding)
+            h[Is::STATUS][n] = done.step.sliding ? friction::SLIDES : friction::STICKS;
           if constexpr (!Recorder::records) continue;
           normal[n] = done.normal;
           tangential[n] = done.tangential;
@@ -249,8 +232,8 @@ namespace LSMFriction {
         touch = false;
         return;
       }
-      if (apart && (!touch || h[Is::STATUS] == NEAR)) {
-        keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
+      if (apart && (!touch || h[Is::STATUS] == friction::NEAR)) {
+        friction::keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;
       }
       const auto c = LSM::coefficients_of<Law>([this, &site](std::size_t p) {
@@ -258,21 +241,21 @@ namespace LSMFriction {
       });
 
       LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
-      Along<DIM> dxi{};
-      const bool moved = follow<Law, DIM>(step, c, d, g.r, r0, touch, h, contact, dxi);
+      friction::Along<DIM> dxi{};
+      const bool moved = friction::follow<Law, DIM>(step, c, d, g.r, r0, touch, h, contact, dxi);
       const bool both = is_both(site);
       contact.fn = normal_force(site, g.r, apart, both);
       const Push push = push_of(g, apart ? 0.0 : g.r - r0, scene.k.at(site.types), c.kt, contact.fn,
-                                next<Law, DIM>(moved || apart, c, contact, d, dxi, h));
+                                friction::next<Law, DIM>(moved || apart, c, contact, d, dxi, h));
       if constexpr (Recorder::records) record(site, apart, push, both);
       if (apart) {
-        keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
+        friction::keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;
       }
-      keep<Law, DIM>(push.step, d, h);
+      friction::keep<Law, DIM>(push.step, d, h);
       add_forces(site, push, both);
       if constexpr (Recorder::tallies) {
-        Vector force{}, del{};
+        friction::Vector force{}, del{};
         std::copy_n(push.f, DIM, force.begin());
         std::copy_n(d, DIM, del.begin());
         scene.host.tally(site, push.normal + push.tangential, force, del);

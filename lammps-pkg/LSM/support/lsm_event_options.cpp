@@ -50,7 +50,8 @@ Keywords LSMEventOptions::keywords(LSMKeywordReader &in, std::string &prefix)
   const auto reading = [this, &in] {
     if (!LSM::from_string(in.text(), events.picker.reading))
       in.stop(std::string("picker is '") + in.text() + "', but must be " +
-              LSM::choices(events.picker.reading));
+                  LSM::choices(events.picker.reading),
+              1);
   };
   const auto parameter = [this, &in] {
     events.parameters.emplace_back(in.text(1), in.text(2));

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "files/names.h"
+#include "input.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -14,11 +15,26 @@
 using namespace LAMMPS_NS;
 using LSM::Must;
 
+int LAMMPS_NS::lsm_place(LAMMPS *lmp, const char *word)
+{
+  const Input *const line = lmp->input;
+  for (int i = 0; line && i < line->narg; i++)
+    if (line->arg[i] == word) return i;
+  return Error::NOPOINTER;
+}
+
 LSMKeywordReader::LSMKeywordReader(LAMMPS *_lmp, const std::string &style, int first, int narg,
                                    char **arg) :
     Pointers(_lmp),
     style_(style), at_(first), narg_(narg), arg_(arg)
 {
+}
+
+std::string LSMKeywordReader::in_messages() const
+{
+  std::string style = style_;
+  style[0] = static_cast<char>(std::tolower(style[0]));
+  return style;
 }
 
 bool LSMKeywordReader::next()
@@ -34,8 +50,10 @@ bool LSMKeywordReader::next()
 void LSMKeywordReader::need(int values)
 {
   if (at_ + values >= narg_)
-    error->all(FLERR, "{} keyword {} needs {}", style_, key_,
-               values > 1 ? std::to_string(values) + " values" : "a value");
+    utils::missing_cmd_args(FLERR,
+                            fmt::format("{} {} ({})", in_messages(), key_,
+                                        values > 1 ? fmt::format("{} values", values) : "a value"),
+                            error);
   used_ = values + 1;
 }
 
@@ -108,33 +126,37 @@ void LSMKeywordReader::take(bool *to, Must /*must*/) const
   const std::string word = text();
   *to = word == "yes" || word == "on" || word == "true" || word == "1";
   if (!*to && word != "no" && word != "off" && word != "false" && word != "0")
-    stop(key_ + " is '" + word + "', but must be yes or no");
+    stop(key_ + " is '" + word + "', but must be yes or no", 1);
 }
 
 void LSMKeywordReader::take(const LSM::Words &to, Must /*must*/) const
 {
   const auto at = std::find(to.list.begin(), to.list.end(), std::string(text()));
-  if (at == to.list.end()) stop(key_ + " is '" + text() + "', but must be " + LSM::either(to.list));
+  if (at == to.list.end())
+    stop(key_ + " is '" + text() + "', but must be " + LSM::either(to.list), 1);
   *to.place = static_cast<int>(at - to.list.begin());
 }
 
 void LSMKeywordReader::refuse(const std::string &expected, int n) const
 {
   const std::string which = used_ > 2 ? " value " + std::to_string(n) : "";
-  stop(key_ + which + " is " + text(n) + ", but must be " + expected);
+  stop(key_ + which + " is " + text(n) + ", but must be " + expected, n);
 }
 
-void LSMKeywordReader::stop(const std::string &message) const
+int LSMKeywordReader::place(int n) const
 {
-  error->all(FLERR, "{} {}", style_, message);
+  return at_ + n < narg_ ? lsm_place(lmp, arg_[at_ + n]) : static_cast<int>(Error::NOPOINTER);
+}
+
+void LSMKeywordReader::stop(const std::string &message, int n) const
+{
+  error->all(FLERR, place(n), "{} {}", style_, message);
 }
 
 void LSMKeywordReader::unknown(const LSM::Keywords &table) const
 {
   std::vector<std::string> accepted;
   for (const LSM::Keyword &keyword : table) accepted.emplace_back(keyword.name);
-  std::string style = style_;
-  style[0] = static_cast<char>(std::tolower(style[0]));
-  error->all(FLERR, "Unknown {} keyword '{}'; accepted are {}", style, key_,
+  error->all(FLERR, place(), "Unknown {} keyword '{}'; accepted are {}", in_messages(), key_,
              utils::join_words(accepted, ", "));
 }

@@ -14,6 +14,10 @@
 
 namespace LAMMPS_NS {
 
+/// Index of a word in the last input line, for messages that point to it, or Error::NOPOINTER if it
+/// is not of that line, as coefficients in data files and arguments of internal fixes are not.
+int lsm_place(LAMMPS *, const char *word);
+
 /// Reads the words after a style's name. Any error stops LAMMPS with one line.
 class LSMKeywordReader : protected Pointers {
  public:
@@ -42,7 +46,8 @@ class LSMKeywordReader : protected Pointers {
   /// \param expected what the value should be
   /// \param n index of the value, from 1
   [[noreturn]] void refuse(const std::string &expected, int n = 1) const;
-  [[noreturn]] void stop(const std::string &message) const;
+  /// Stops because of the n-th value, or 0: the keyword.
+  [[noreturn]] void stop(const std::string &message, int n = 0) const;
   [[noreturn]] void unknown(const LSM::Keywords &) const;
 
  private:
@@ -54,6 +59,9 @@ class LSMKeywordReader : protected Pointers {
   std::set<std::string> seen_;
 
   double number(LSM::Must, int n) const;
+  std::string in_messages() const;    // the style, within a sentence
+  /// Index in the input line of the keyword, or of its n-th value.
+  int place(int n = 0) const;
   void take(double *, LSM::Must) const;
   void take(int *, LSM::Must) const;
   void take(std::uint64_t *, LSM::Must) const;
