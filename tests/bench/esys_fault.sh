@@ -50,13 +50,15 @@ call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(
 
 # Writes PE of links and contacts as a series of this project; the first row is from before the
 # first evaluation of forces
-paste -d ' ' fault.esys.links fault.esys.contacts | PYTHONPATH=$here/../../inputs/studies python3 -c '
-import array, sys
-import superpose
+paste -d ' ' fault.esys.links fault.esys.contacts | python3 -c '
+import struct, sys
 dt, step = float(sys.argv[1]), int(sys.argv[2])
-rows = [line.split() for line in sys.stdin][2:]
-superpose.write("fault.pe.bin", {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": sys.argv[3]},
-                array.array("d", (float(row[0]) + float(row[1]) for row in rows if len(row) == 2)))
+pe = [float(row[0]) + float(row[1]) for row in [line.split() for line in sys.stdin][2:] if len(row) == 2]
+header = {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": sys.argv[3]}
+lines = "".join(f"# {key} = {value}\n" for key, value in header.items()).encode()
+with open("fault.pe.bin", "wb") as file:
+    file.write(b"lsm-pe-series-1\n" + struct.pack("<q", len(lines)) + lines)
+    file.writelines(struct.pack("<qd", step + n, one) for n, one in enumerate(pe))
 ' "$(value dt)" "$(value settle)" "$(value completeness)"
 "$bin/postproc" pick fault.pe.bin --memory-time "$(value memory)" -o fault.catalogue.csv --overwrite
 mv fault.esys.json summary.json

@@ -13,10 +13,9 @@ import pytest
 from data_files import header, read_catalogue, read_dump, read_series, rows, same_bytes
 from programs import INPUTS, SOURCE, Program, refused, run, scene
 
-sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
+sys.path.insert(0, str(SOURCE / "python"))
 import lsm  # noqa: E402
 from lsm.regime import of_run  # noqa: E402
-from stretches import parts_of  # noqa: E402
 
 
 def particles(result):
@@ -225,44 +224,6 @@ def test_image(lmp):
     assert pictures == [f"film.{step:09d}.png" for step in (102, 106, 110, 114, 118)] + ["one.000000110.png"]
     for name in pictures:
         assert Path(name).read_bytes()[1:4] == b"PNG" and os.path.getsize(name) > 5000
-
-
-STRETCHES = """include {inputs}/fault_stretches.in
-write_dump all custom begin.dump id type x modify sort id
-dump probe all custom 8 probe.dump id type x y c_discenergy
-dump_modify probe sort id
-"""
-
-
-def test_stretches(lmp, work):
-    """Pieces of equal length keep the discs that they had at first, and their energies add up to PE."""
-    Path("parts.in").write_text(STRETCHES.format(inputs=INPUTS))
-    run(
-        lmp,
-        scene(preset="absorbing", length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts",
-              piece=5))
-    pieces = 7  # 36 is no multiple of 5
-    (steps, energy), = parts_of("p.stretches.txt")
-    assert list(steps) == list(range(104, 505, 8)) and energy.shape == (len(steps), pieces, 2)
-    _, step, _, pe = read_series("p.pe.bin")
-    assert energy.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, steps)], rel=1e-13)
-    (_, _, begin), = read_dump("begin.dump")
-    piece, above = (begin[:, 2] % 36 * pieces / 36).astype(int), begin[:, 1] % 2 == 0
-    frames = list(read_dump("probe.dump"))
-    assert [frame[0] for frame in frames] == list(steps)
-    for at, _, discs in frames:
-        expected = [[discs[(piece == n) & (above == side), 4].sum() for side in (False, True)] for n in range(pieces)]
-        assert energy[steps == at][0] == pytest.approx(np.array(expected), rel=1e-4)  # digits of the dump
-    # The discs move, those below the fault towards smaller x.
-    moved = (frames[-1][2][:, 2] - begin[:, 2] + 18) % 36 - 18
-    assert moved[~above].mean() < 0 < moved[above].mean()
-    assert ((frames[-1][2][:, 2] % 36 * pieces / 36).astype(int) != piece).any(), "no disc has left its piece"
-    # The run is continued from the restart file before the last, as after a kill.
-    run(lmp, scene(restart="p.restart.304", steps=600, checkpoint=200, prefix="p", extra=INPUTS / "fault_stretches", piece=5, overwrite=None))
-    (before, kept), (after, energy2) = parts_of("p.stretches.txt")
-    assert list(before) == list(range(104, 304, 8)) and list(after) == list(range(304, 705, 8)) and (kept == energy[:25]).all()
-    _, step, _, pe = read_series("p.pe.bin")
-    assert energy2.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, after)], rel=1e-13)
 
 
 def test_energy(lmp, work):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""publish.py and superpose.py, with PE and catalogues of two short faults."""
-import array
+"""publish.py, with catalogues of two short faults."""
 import csv
 import json
 import re
@@ -15,7 +14,6 @@ from programs import INPUTS, SOURCE, Program, refused, run, snapshot
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import publish  # noqa: E402
-import superpose  # noqa: E402
 
 
 def cells(path):
@@ -32,21 +30,6 @@ def runs(lmp, tmp_path_factory):
             "-var settle 400 -var velocity 0.005", "-var steps 6000 -var ruptures yes -var history no", cwd=folder)
     yield sorted(work.iterdir())
     shutil.rmtree(work)
-
-
-@pytest.fixture
-def series(runs):
-    return [str(next(folder.glob("*.pe.bin"))) for folder in runs]
-
-
-@pytest.fixture
-def picked(postproc):
-
-    def pick(series, out, *words):
-        run(postproc, "pick", Path(series), "-o", out, "--overwrite", *words)
-        return cells(out)
-
-    return pick
 
 
 def test_small_events_are_left_out_and_the_header_says_so(runs):
@@ -211,55 +194,3 @@ def test_catalogues_of_faults_are_complete_from_the_size_that_was_measured(runs,
     Path("run.csv").write_text(text.replace("# completeness = 1e-3\n", f"# completeness = {given}\n"))
     publish.publish(Path("run.csv"), Path("run.xz"))
     assert header("run.xz")["completeness"] == wanted
-
-
-def test_series_add_up_sample_by_sample(series, picked):
-    begin, end = 100.0, 300.0
-    superpose.main(["sum.pe.bin", *(word for path in series for word in (path, str(begin), str(end)))])
-    info, first, total = superpose.read("sum.pe.bin")
-    assert (info["length"], info["superposed"], first) == ("48", "2", 0)
-    parts = [superpose.stretch(path, begin, end)[1] for path in series]
-    assert len(total) == round((end - begin) / 0.12)
-    assert total == array.array("d", [a + b for a, b in zip(*parts)])
-    assert picked("sum.pe.bin", "sum.csv")
-
-
-def test_one_stretch_picks_to_the_events_of_the_run(runs, series, picked):
-    info, first, pe = superpose.read(series[0])
-    begin = float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"])
-    superpose.main(["one.pe.bin", series[0], str(begin), str(begin + len(pe) * float(info["dt"]))])
-    mine, whole = picked("one.pe.bin", "one.csv"), cells(runs[0] / "fault.catalogue.csv")
-    assert [row[5] for row in mine] == [row[5] for row in whole]
-    assert [int(row[3]) for row in mine] == [int(row[3]) - first for row in whole]
-
-
-def test_every_second_step_keeps_times_and_memory(runs, series, picked, postproc):
-    superpose.main(["every", "2", "second.pe.bin", series[0]])
-    (info, first, pe), (other, _, halved) = superpose.read(series[0]), superpose.read("second.pe.bin")
-    assert halved == pe[::2]
-    assert float(other["dt"]) == pytest.approx(2 * float(info["dt"]), abs=5e-8)
-    assert float(other["lambda"]) == pytest.approx(float(info["lambda"])**2, abs=5e-8)
-    assert float(other["time0"]) == pytest.approx(float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"]), abs=5e-8)
-    assert picked("second.pe.bin", "second.csv")
-
-
-def test_what_is_no_series_is_refused(runs, series):
-    for words, said in (([str(runs[0] / "fault.catalogue.csv"), "100", "300"], "expected a binary PE series"),
-                        ([series[0], "100", "9000"], "no time from 100 to 9000"), ([series[0], "100", "300", series[0], "100",
-                                                                                    "200"], "expected 1667 of 0.12")):
-        with pytest.raises(superpose.SeriesError, match=said):
-            superpose.main(["bad.pe.bin", *words])
-    with pytest.raises(superpose.SeriesError, match="every -2, expected a number of at least 1"):
-        superpose.main(["every", "-2", "bad.pe.bin", series[0]])
-
-
-def test_series_of_a_killed_run_are_read_up_to_the_last_whole_record(series):
-    whole = superpose.read(series[0])[2]
-    Path("cut.pe.bin").write_bytes(Path(series[0]).read_bytes()[:-5])
-    assert superpose.read("cut.pe.bin")[2] == whole[:-1]
-
-
-def test_series_of_sliders_are_refused(slider):
-    run(slider, "--blocks 50 --steps 1000 --warmup 0 --catalogue c.csv --pe-series c.pe")
-    with pytest.raises(superpose.SeriesError, match="c.pe: expected the series of a fault"):
-        superpose.main(["every", "2", "bad.pe.bin", "c.pe"])
