@@ -415,7 +415,7 @@ def test_slurm(studies, work):
 
     def queued(state, job=None):
         names = said("squeue", "-h", "-t", state, "-o", "%i %j").splitlines()
-        return [line.split()[0] for line in names if (job or "fault" in line or "slider" in line) and (not job or line.endswith(" " + job))]
+        return [line.split()[0] for line in names if (job or "fault" in line or "chain" in line) and (not job or line.endswith(" " + job))]
 
     with Slurm(work / "slurm"):
         studies("here", "checkpoint=5000 ranks=1")
@@ -436,11 +436,11 @@ def test_slurm(studies, work):
             # The fault that Slurm starts first is cancelled by hand, and the other one is signalled to end as
             # before its time limit.
             first = begun("fault_1", "fault_2")
-            job = queued("R", f"fault.{first}")
+            job = queued("R", first)
             assert job, f"{first} has ended before it was cancelled"
             said("scancel", job[0])
             second = begun("fault_2" if first == "fault_1" else "fault_1")
-            job = queued("R", f"fault.{second}")
+            job = queued("R", second)
             assert job, f"{second} has ended before it was told to"
             said("scancel", "--signal=TERM", "--batch", job[0])
             assert wait(lambda: said("squeue", "-h", "-j", job[0], "-o", "%T") == "PENDING", 30, 0.1), "not queued again"

@@ -413,7 +413,7 @@ def test_jobs_of_a_cluster_have_the_ranks_of_the_table(study, work):
         env={"PATH": f"{work}/bin:{os.environ['PATH']}", "JOBS": str(work)})
     for name, ranks in (("f_1", "4"), ("g_1", "1")):
         assert f"\n# ranks = {ranks}\n" in Path(f"out/{name}/fault.catalogue.csv").read_text()
-        assert re.search(f"--ntasks={ranks} .*--job-name=fault.{name} ", Path("asked").read_text())
+        assert re.search(f"--ntasks={ranks} .*--job-name={name} ", Path("asked").read_text())
     assert set(table()) == {"f_1", "g_1"}
 
 
@@ -572,7 +572,7 @@ def test_of_very_many_settings_the_ends_are_asked(plan, monkeypatch):
 def test_what_would_be_submitted_is_said(study):
     write(HEAD.replace("settings", "settings,ranks") + FAULT.replace("\n", ",4\n"))
     said = run(study, "my.csv hours=2 -n --profile", INPUTS / "slurm").err
-    assert re.search("^  f_1: .*sbatch .* --ntasks=4 --time=120 .*--job-name=fault.f_1 ", said, re.M)
+    assert re.search("^  f_1: .*sbatch .* --ntasks=4 --time=120 .*--job-name=f_1 ", said, re.M)
 
 
 def test_means_have_errors_and_names_of_their_own(study, plan):
