@@ -4,13 +4,10 @@
 
 OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults, all of sliders; with --events those of
 this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a fault has the size from
-which it is complete, if it was run with a smaller one. With --statements OUT/statements.csv has what the paper says in words
-about its fault, run by run, from all ruptures and the slip histories, which are not published. Files of OUT that it wrote
-earlier are replaced, others are not; nothing is written where something is refused or the disk is full, or before all is made.
+which it is complete, if it was run with a smaller one. Files of OUT that it wrote earlier are replaced, others are not; nothing
+is written where something is refused or the disk is full, or before all is made.
 """
 import argparse
-import csv
-import io
 import json
 import lzma
 import math
@@ -19,10 +16,7 @@ import sys
 from pathlib import Path
 
 INPUTS = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
-from lsm import LOADING  # noqa: E402
-from lsm.statements import statements_of as measured  # noqa: E402
-from lsm.tables import header_of  # noqa: E402
+sys.path.insert(0, str(INPUTS))
 from run import events_in, replace, replace_all  # noqa: E402
 from variables import defaults  # noqa: E402
 
@@ -80,16 +74,16 @@ def thinned(source, least):
     return "".join(kept)
 
 
-def check_replaced(path, known):
-    """\\raises Refused if the file exists, unless `known` recognises it by its beginning"""
+def check_replaced(path):
+    """\raises Refused if the file exists and is no catalogue"""
     if not path.exists():
         return
     try:
-        with (lzma.open if path.suffix == ".xz" else open)(path, "rt") as lines:
+        with lzma.open(path, "rt") as lines:
             head = lines.readline()
     except (lzma.LZMAError, UnicodeDecodeError, EOFError):
         head = ""
-    if not head.startswith(known):
+    if head != MAGIC:
         raise Refused(f"{path}: exists already and holds something else, expected a new name")
 
 
@@ -116,18 +110,7 @@ def catalogue_of(folder):
     raise Refused(f"{folder}: no catalogue, expected the folder of a run of a study")
 
 
-def statements_of(postproc, catalogue):
-    """Rows of lsm.statements for one run."""
-    with open(catalogue) as lines:
-        header = header_of(lines)
-    try:
-        rows = measured(postproc, catalogue, LOADING)
-    except ValueError as error:
-        raise Refused(error)
-    return [{"run": catalogue.parent.name, "length": header["length"], "seed": header["seed"], **row} for row in rows]
-
-
-def main(out, folders, events=None, ruptures=RUPTURES, statements=None):
+def main(out, folders, events=None, ruptures=RUPTURES):
     catalogues, texts = {}, {}
     for folder in folders:
         source = catalogue_of(Path(folder).absolute())
@@ -139,17 +122,10 @@ def main(out, folders, events=None, ruptures=RUPTURES, statements=None):
         texts[Path(out) / f"{name}.catalogue.csv.xz"] = thinned(source, least)
         if (source.parent / "fault.ruptures.csv").exists():
             texts[Path(out) / f"{name}.ruptures.csv.xz"] = thinned(source.parent / "fault.ruptures.csv", ruptures)
-    rows = [row for source in catalogues.values() if statements and source.name.startswith("fault") for row in statements_of(statements, source)]
-    if rows:
-        text = io.StringIO()
-        table = csv.DictWriter(text, rows[0], lineterminator="\n")
-        table.writeheader()
-        table.writerows(rows)
-        texts[Path(out) / "statements.csv"] = text.getvalue()
     for path in texts:
-        check_replaced(path, MAGIC if path.suffix == ".xz" else "run,length,seed,")
+        check_replaced(path)
     Path(out).mkdir(parents=True, exist_ok=True)
-    packed = {path: compressed(text) if path.suffix == ".xz" else text for path, text in texts.items()}
+    packed = {path: compressed(text) for path, text in texts.items()}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     try:
         replace_all(packed)
@@ -161,7 +137,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--events", type=float, metavar="SIZE", help="smallest event (1e-4; sliders: all)")
     parser.add_argument("--ruptures", type=float, metavar="SIZE", default=RUPTURES, help="smallest rupture (%(default)s)")
-    parser.add_argument("--statements", metavar="POSTPROC", help="the program that measures them")
     parser.add_argument("out", metavar="OUT", type=Path)
     parser.add_argument("folders", metavar="FOLDER", type=Path, nargs="+")
     for number in SIGNALS:

@@ -4,7 +4,7 @@
     python3 -m lsm.statements POSTPROC CATALOGUE... [--from TIME] [--json FILE]
 
 Slip history and ruptures are the files beside RUN.catalogue.csv, RUN.slip.bin and RUN.ruptures.csv. As events and slip are
-clustered, errors are those of a jackknife over 20 equal parts of the time. inputs/studies/publish.py makes the statements.csv of the pages.
+clustered, errors are those of a jackknife over 20 equal parts of the time.
 """
 import argparse
 import math

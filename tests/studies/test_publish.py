@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """publish.py, with catalogues of two short faults."""
-import csv
 import json
 import re
 import shutil
 import sys
 from pathlib import Path
-from unittest import mock
 
 import pytest
 from data_files import header, rows
-from programs import INPUTS, SOURCE, Program, refused, run, snapshot
+from programs import INPUTS, Program, refused, run, snapshot
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import publish  # noqa: E402
@@ -62,22 +60,6 @@ def test_runs_that_are_not_done_are_refused(runs, tmp_path):
     refused(script, ["out", folder], "fault_24_1: no catalogue, expected the folder of a run")
 
 
-def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
-    script = Program("publish.py", sys.executable, INPUTS / "studies/publish.py")
-    with mock.patch.object(publish, "LOADING", 60):
-        publish.main(tmp_path / "out", runs, statements=postproc.path)
-    with open(tmp_path / "out/statements.csv") as file:
-        found = list(csv.DictReader(file))
-    for n, folder in enumerate(runs, 1):
-        measure = Program("lsm.statements", sys.executable, "-m", "lsm.statements", postproc.path, env={"PYTHONPATH": SOURCE / "python"})
-        run(measure, folder / "fault.catalogue.csv", "--from 60 --json out.json")
-        wanted = json.loads(Path("out.json").read_text())["statements"]
-        mine = [row for row in found if row["run"] == folder.name]
-        assert [(row["number"], row["verdict"]) for row in mine] == [(row["number"], row["verdict"]) for row in wanted] and wanted
-        assert {(row["length"], row["seed"]) for row in mine} == {("24", str(n))}
-    refused(script, ["--statements", "/nowhere/postproc", "no", *runs], "publish.py: .*/nowhere/postproc")
-
-
 def test_nothing_is_published_where_something_is_refused(runs, tmp_path):
     script = Program("publish.py", sys.executable, INPUTS / "studies/publish.py")
     for place in "a", "b":
@@ -127,20 +109,18 @@ def test_a_catalogue_without_small_events_stays_so(runs):
     assert header("large.xz")["min_size"] == "0.01" and "thinned" not in header("large.xz")
 
 
-def test_statements_are_replaced_whole(runs, postproc, small_disk):
+def test_files_are_replaced_whole(runs, small_disk):
     """If the disk is full, the former ones are kept."""
     script, full = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), small_disk(1)
-    with mock.patch.object(publish, "LOADING", 60):
-        publish.main(full, runs, statements=postproc.path)
-        before = (full / "statements.csv").read_bytes()
-        with open(full / "ballast", "wb", buffering=0) as file:
-            with pytest.raises(OSError):
-                while True:
-                    file.write(bytes(1024))
+    publish.main(full, runs, 0.01)
+    before = snapshot(full)
+    with open(full / "ballast", "wb", buffering=0) as file:
         with pytest.raises(OSError):
-            publish.main(full, runs, statements=postproc.path)
-        assert (full / "statements.csv").read_bytes() == before
-        assert not list(full.glob("*.new"))
+            while True:
+                file.write(bytes(1024))
+    with pytest.raises(OSError):
+        publish.main(full, runs)
+    assert {path: content for path, content in snapshot(full).items() if "ballast" not in path} == before
     refused(script, [full, *runs], "publish.py: .*No space left on device")
 
 
