@@ -27,7 +27,8 @@ from scipy.spatial import cKDTree
 from scipy.stats import gamma as gamma_law
 
 FOLDER = Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER.parent / part) for part in ("python", "inputs/studies")]
+sys.path.insert(0, str(FOLDER.parent / "python"))
+sys.path.append(str(FOLDER.parent / "inputs/studies"))  # its recipes may have names of scripts of this folder
 import lsm  # noqa: E402
 import slip_or_exchange  # noqa: E402
 from lsm import LOADING, slip, summary  # noqa: E402
