@@ -35,9 +35,7 @@ def test_values(lmp):
     run(lmp, small(prefix="a", seed=7, massstep=0.05, stress=0.03, steps=500))
     kept = {one.name for one in declared() if one.restart != "-"}
     assert len(kept) > 20 and kept <= set(info("a.restart.end.info")), kept - set(info("a.restart.end.info"))
-    for name, value, was in (("seed", 8, 7), ("length", 30, 20), ("width", 20, 15), ("mass", "r3", "r2"), ("loose", "keep", "remove"),
-                             ("faces", "none", "random"), ("seeds", "grid", "random"), ("linkratio", 1.05, 1), ("massstep", 0, 0.05),
-                             ("preset", "absorbing", "leaky"), ("settle", 50, 100), ("mu", 0.5, 0.6)):
+    for name, value, was in (("seed", 8, 7), ("mass", "r3", "r2"), ("massstep", 0, 0.05), ("preset", "absorbing", "leaky"), ("mu", 0.5, 0.6)):
         refused(lmp, scene(restart="a.restart.end", **{name: value}),
                 f"Variable {name} is {value}, but restart file a.restart.end was written with {name} = {was}")
     refused(lmp, scene(restart="a.restart.end", steps=300), "steps = 300, but 500 of them are done; give as many or more")
@@ -65,9 +63,9 @@ def test_damaged(lmp):
             Path(f"{name}.info").write_text(said)
         refused(lmp, scene(restart=name, steps=1500), pattern)
 
-    for length in 0, 1, 100, size // 2, size - 1:
+    for length in 0, size // 2, size - 1:
         no("cut", newest[:length], f"cut: is damaged, it has {length} bytes, expected {size}")
-    for place in 0, 17, size // 7, size // 3, size - 20:
+    for place in 0, size // 3, size - 20:
         no("flipped", newest[:place] + bytes([newest[place] ^ 4]) + newest[place + 1:],
            "flipped: is damaged, its checksum is not that in flipped.info")
     no("noise", random.Random(1).randbytes(size), "noise: is damaged")

@@ -69,13 +69,6 @@ def test_match_of_files(work):
 # ---- periods.py
 
 
-def events(n, tied, rng):
-    """Independent events over 70 periods, with weights of which a few dominate; a share lies in the third tenth of the period."""
-    at = 70 * rng.uniform(size=n)
-    times = np.where(rng.uniform(size=n) < tied, np.floor(at) + 0.2 + 0.1 * rng.uniform(size=n), at)
-    return np.sort(times), (1 - rng.uniform(size=n))**-0.6
-
-
 def test_rayleigh_by_hand():
     # The phases differ by a quarter of a period: the resultant is the diagonal of the weights.
     times, weights = np.array([0, 0.25]), np.array([3.0, 4.0])
@@ -83,43 +76,14 @@ def test_rayleigh_by_hand():
         assert periods.rayleigh_z(times, weights, period) == pytest.approx(z)
 
 
-def test_chance_is_one_and_alarms_are_as_rare_as_stated():
-    rng, z, alarms = np.random.default_rng(5), [], 0
-    for _ in range(300):
-        times, weights = events(200, 0.0, rng)
-        z.append(periods.rayleigh_z(times, weights, 1.0))
-        alarms += periods.chance_of(z[-1], weights, 199) <= 0.05
-    assert np.mean(z) == pytest.approx(1, abs=0.2) and alarms / 300 == pytest.approx(0.05, abs=0.04)
-    times, weights = events(400, 0.3, rng)
-    z = periods.rayleigh_z(times, weights, 1.0)
-    assert z > 4 and periods.chance_of(z, weights, 999) < 0.01
-
-
-def test_energy_at_equal_times():
-    rng = np.random.default_rng(7)
-    a, b = (events(600, 0.5, rng)[0] for _ in range(2))
-    correlation, p = periods.coincidence((a, np.ones(600)), (b, np.ones(600)), 0.1)
-    assert correlation > 0.3 and p < 0.15  # one in ten shifts is by whole periods and gives the same correlation
-    correlation, p = periods.coincidence(events(600, 0, rng), events(600, 0, rng), 0.1)
-    assert abs(correlation) < 0.2 and p > 0.01
-    with pytest.raises(ValueError, match="fewer than 20 bins of 10 in common"):
-        periods.coincidence((a, np.ones(600)), (b, np.ones(600)), 10)
-
-
 def test_periods_of_files(work):
-    rng = np.random.default_rng(3)
-    for name, tied in ("tied", True), ("free", False):
-        cycles = np.arange(1, 81)
+    rng, cycles = np.random.default_rng(3), np.arange(1, 81)
+    for tied in True, False:
         slip = np.sort((cycles[:, None] + (0.1 if tied else 1.0) * rng.uniform(size=(80, 5))).ravel())
-        write_catalogue(f"{name}.csv", slip / 5e-4, [0.1] * 400, dict(model="lsm", length=40, velocity=2.5e-4))  # two plates
-    write_catalogue("still.csv", range(20), [1] * 20)
-    script = Program("periods.py", sys.executable, RESULTS / "periods.py")
-    done = run(script, "tied.csv free.csv")
-    assert float(done.printed(r"tied.csv: period 1, 400 events: Z (\S+),")[1]) > 300
-    assert float(done.printed(r"free.csv: period 1, 400 events: Z (\S+),")[1]) < 10
-    done.printed("tied.csv and free.csv: energy at equal times: correlation")
-    refused(script, "still.csv", "still.csv: no velocity of the plates in the header")
-    refused(script, "tied.csv --threshold 2", "tied.csv: 0 events of this size, expected at least 10")
+        write_catalogue("a.csv", slip / 5e-4, [0.1] * 400, dict(model="lsm", length=40, velocity=2.5e-4))  # two plates
+        times, sizes = periods.slips_of("a.csv", 0, 1e-2)
+        assert times == pytest.approx(slip) and set(sizes) == {0.1}
+        assert (periods.rayleigh_z(times, sizes, 1.0) > 300) == tied
 
 
 # ---- nature.py
