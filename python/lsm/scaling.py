@@ -5,8 +5,7 @@
 
 Of each catalogue the characteristic size s* = <s^2>/<s> of the events of at least a smallest size, which follows the roll-off of a power
 law with an exponent below 3. Of the catalogues of each model, with the same leaf springs and kind of events, a power law s* = A L^D of
-the length L (or the number of blocks), a constant, and growth that ends, s* = s_inf [1 + (L_c / L)^(m D)]^(-1/m), which is
-s_inf (L / L_c)^D for L far below L_c and s_inf far above. Results: BASE.csv, its picture .png and .svg, and --json.
+the length L (or the number of blocks), and a constant. Results: BASE.csv, its picture .png and .svg, and --json.
 """
 import argparse
 import math
@@ -21,9 +20,7 @@ from lsm.program import add_time_window, run
 from lsm.tables import write_json
 
 PAPER_THRESHOLD = 1e-4  # smallest size in the paper's Figs. 12 and 13
-SHARPNESS = 4.0  # m of the bend: few lengths lie within it; L_c and D depend on it by more than their errors, hence BENDS
-BENDS = 1.0, 2.0, SHARPNESS, 8.0, 16.0
-POWER_LAW, NONE, UNDECIDED, ENDS = "power law in the length", "no dependence on the length", "undecided", "growth that ends at a length"
+POWER_LAW, NONE, UNDECIDED = "power law in the length", "no dependence on the length", "undecided"
 
 # ---- characteristic sizes
 
@@ -154,78 +151,11 @@ def line(x, y, weight):
     return ordinate, slope, math.sqrt(1 / total + mean**2 / spread), math.sqrt(1 / spread), chi2
 
 
-def least_squares(model, y, weight, starts):
-    """The weighted least squares of a model by the Levenberg-Marquardt method from several starts at once. Of the best minimum: parameters,
-    their covariance (None: not determined), and chi2.
-
-    model(p): of each of the sets p of parameters the values [set, datum], and their derivatives [set, datum, parameter]
-    """
-
-    def at(p):
-        value, slope = model(p)
-        residual, slope = np.sqrt(weight) * (value - y), np.sqrt(weight)[:, None] * slope
-        return np.sum(residual**2, axis=1), np.einsum("kn,kni->ki", residual, slope), np.einsum("kni,knj->kij", slope, slope)
-
-    p, damping = np.array(starts, float), np.full(len(starts), 1e-3)
-    chi2, gradient, curvature = at(p)
-    for _ in range(100):
-        damped = curvature * (1 + damping[:, None, None] * np.eye(p.shape[1]))
-        step = -np.einsum("kij,kj->ki", np.linalg.pinv(damped, hermitian=True), gradient)
-        if not (np.abs(step) > 1e-12 * np.abs(p)).any():
-            break
-        there = at(p + step)
-        better = there[0] < chi2
-        p[better] += step[better]
-        for old, new in zip((chi2, gradient, curvature), there):
-            old[better] = new[better]
-        damping = np.where(better, damping / 10, np.minimum(10 * damping, 1e30))
-    best = np.argmin(chi2)
-    scale = np.sqrt(np.diag(curvature[best]))
-    correlation = curvature[best] / np.outer(scale, scale) if scale.all() else np.zeros_like(curvature[best])
-    determined = np.linalg.cond(correlation) < 1e10
-    return p[best], np.linalg.inv(correlation) / np.outer(scale, scale) if determined else None, chi2[best]
-
-
-def saturating(p, x, m):
-    """ln s* of growth that ends, and its derivatives, for each set of p = (ln s_inf, ln L_c, D)."""
-    ln_s, ln_L, D = p.T[:, :, None]
-    z = m * D * (ln_L - x)
-    rise = np.logaddexp(0, z)
-    share = np.exp(z - rise)
-    return ln_s - rise / m, np.stack([np.ones_like(z), -share * D, -share * (ln_L - x)], axis=2)
-
-
-def fit_saturation(x, y, weight, m):
-    """Growth that ends with a bend of sharpness m: a dict of numbers, or of m and the reason why there are none."""
-    steps = np.sort(x)
-    steps = steps[np.diff(steps, prepend=-math.inf) > 1e-9]
-    if len(x) < 5:
-        return dict(m=m, why=f"{len(x)} usable points, at least 5 needed")
-    if len(steps) < 4:
-        return dict(m=m, why=f"{len(steps)} different lengths, at least 4 needed")
-    # From a sharp bend at each length within, as chi2 may have several minima.
-    starts = [(ordinate, at, slope) for at in steps[1:-1] for ordinate, slope, *_ in [line(np.minimum(x - at, 0), y, weight)]]
-    with np.errstate(all="ignore"):
-        p, covariance, chi2 = least_squares(lambda p: saturating(p, x, m), y, weight, starts)
-    if not steps[1] < p[1] < steps[-2]:
-        return dict(m=m, why="no end of growth with two lengths on either side of it")
-    if covariance is None:
-        return dict(m=m, why="no minimum of chi2")
-    error = np.sqrt(np.diag(covariance))
-    if not p[2] > 1.96 * error[2]:
-        return dict(m=m, why="no significant growth up to where it would end")
-    error *= error_scale(chi2, len(x) - 3)
-    s_inf, L_c = np.exp(p[:2])
-    return dict(m=m, s_inf=s_inf, s_inf_error=s_inf * error[0], L_c=L_c, L_c_error=L_c * error[1], D=p[2], D_error=error[2], chi2=chi2,
-                aicc=corrected_aic(chi2, 3, len(x)))
-
-
 def fit_scaling(points):
-    """The three laws by weighted least squares of ln s* on ln L, a dict; `why` says why there is none.
+    """A power law and a constant by weighted least squares of ln s* on ln L, a dict; `why` says why there is none.
 
-    saturation, bends: fits of growth that ends, with SHARPNESS and, if there is one, with BENDS. preferred: growth that ends if its AICc is lower than both
-    others by more than 2. Otherwise the power law or the constant, if its AICc is lower than the other's by more than 2; the constant
-    only if D = 0 is also within the 95 % confidence interval of D, since with few points AICc alone accepts it up to 2.2 errors away.
+    preferred: the power law or the constant, if its AICc is lower than the other's by more than 2; the constant only if D = 0 is also
+    within the 95 % confidence interval of D, since with few points AICc alone accepts it up to 2.2 errors away.
     """
     used = [point for point in points if not point.why and point.error > 0]
     n = len(used)
@@ -240,18 +170,14 @@ def fit_scaling(points):
     mean = np.average(y, weights=weight)
     chi2_constant = np.sum(weight * (y - mean)**2)
     aicc, aicc_constant = corrected_aic(chi2, 2, n), corrected_aic(chi2_constant, 1, n)
-    saturation = fit_saturation(x, y, weight, SHARPNESS)
-    bends = [] if "why" in saturation else [fit_saturation(x, y, weight, m) for m in BENDS]
     preferred = UNDECIDED
-    if saturation.get("aicc", math.inf) < min(aicc, aicc_constant) - 2:
-        preferred = ENDS
-    elif aicc < aicc_constant - 2:
+    if aicc < aicc_constant - 2:
         preferred = POWER_LAW
     elif aicc_constant < aicc - 2 and abs(D) < 1.96 * error_d:
         preferred = NONE
     return dict(n=n, A=math.exp(log_a), A_error=scale * math.exp(log_a) * error_a, D=D, D_error=scale * error_d, chi2=chi2, error_scale=scale,
-                constant=math.exp(mean), constant_error=error_scale(chi2_constant, n - 1) * math.exp(mean) / math.sqrt(np.sum(weight)), chi2_constant=chi2_constant, aicc=aicc,
-                aicc_constant=aicc_constant, preferred=preferred, saturation=saturation, bends=bends)
+                constant=math.exp(mean), constant_error=error_scale(chi2_constant, n - 1) * math.exp(mean) / math.sqrt(np.sum(weight)),
+                chi2_constant=chi2_constant, aicc=aicc, aicc_constant=aicc_constant, preferred=preferred)
 
 
 # ---- models
@@ -340,7 +266,7 @@ def scalings(catalogues, threshold=None, replicas=200, seed=1, block=None):
 
 
 def measured(fit, key, digits=4):
-    return f"{key.replace('s_inf', 's_∞')} = {fit[key]:.{digits}g} ± {fit[f'{key}_error']:.2g}"
+    return f"{key} = {fit[key]:.{digits}g} ± {fit[f'{key}_error']:.2g}"
 
 
 def poorly(chi2, freedom):
@@ -352,28 +278,16 @@ def verdict(fit):
     """Says in one sentence whether the characteristic size depends on the length."""
     if "why" in fit:
         return f"degenerate: {fit['why']}"
-    n, end, D, half = fit["n"], fit["saturation"], fit["D"], 1.96 * fit["D_error"]
+    n, D, half = fit["n"], fit["D"], 1.96 * fit["D_error"]
     statement = "may or may not depend on the length"
     if fit["preferred"] == NONE:
         statement = "shows no significant dependence on the length"
     elif fit["preferred"] == POWER_LAW:
         statement = "grows with the length" if D > 0 else "shrinks with the length, which no finite-size effect explains"
         statement += ", but not as a power law" if fit["error_scale"] > 1 else ""
-    elif fit["preferred"] == ENDS:
-        statement = "grows with the length up to L_c only" + (", but not along the curve fitted" if error_scale(end["chi2"], n - 3) > 1 else "")
-    text = (f"Over {n} catalogues the characteristic size of the roll-off {statement} (s* ~ L^D with {measured(fit, 'D')}, at 95 % from "
+    return (f"Over {n} catalogues the characteristic size of the roll-off {statement} (s* ~ L^D with {measured(fit, 'D')}, at 95 % from "
             f"{D - half:.2g} to {D + half:.2g}, {poorly(fit['chi2'], n - 2)}; AICc {fit['aicc']:.4g} for this power law, {fit['aicc_constant']:.4g} "
-            f"for no dependence on L; for growth that ends, s* = s_∞ [1 + (L_c/L)^({SHARPNESS:g}D)]^(-1/{SHARPNESS:g}): ")
-    if "why" in end:
-        return f"{text}degenerate: {end['why']})."
-    text += f"AICc {end['aicc']:.4g} with {', '.join(measured(end, key) for key in ('L_c', 's_inf', 'D'))}, {poorly(end['chi2'], n - 3)}"
-    there = [one for one in fit["bends"] if "why" not in one]
-    well = [one for one in there if one["chi2"] <= min(one["chi2"] for one in there) + 4]
-    if len(well) > 1:
-        L_c, D = ((min(one[key] for one in well), max(one[key] for one in well)) for key in ("L_c", "D"))
-        text += (f"; bends from {well[0]['m']:g} to {well[-1]['m']:g} instead of {SHARPNESS:g} fit as well, with L_c = {L_c[0]:.3g} to {L_c[1]:.3g}, "
-                 f"D = {D[0]:.2g} to {D[1]:.2g}")
-    return text + ")."
+            "for no dependence on L).")
 
 
 def figure(found):
@@ -396,11 +310,6 @@ def figure(found):
             continue
         laws += [f"{over}({fit['A']}*$1**({fit['D']})) with lines lt {number} title {quote('A L^D with ' + measured(fit, 'D', 3), True)}",
                  f"{over}({fit['constant']}) with lines lt 8 dt 2 title 'constant'"]  # yapf: disable
-        if fit["preferred"] == ENDS:
-            end = fit["saturation"]
-            title = quote(f"growth up to {measured(end, 'L_c')}, {measured(end, 's_inf')}".replace("s_∞", "s_{∞}"), True)
-            laws.append(f"{over}({end['s_inf']}*(1+({end['L_c']}/$1)**({end['D'] * SHARPNESS}))**({-1 / SHARPNESS})) with lines lt {number} "
-                        f"dt 4 lw 2 title {title}")
     script = "unset tics\nset label 'no catalogue gives a characteristic size' at graph 0.5,0.5 center\nplot [0:1] [0:1] NaN notitle"
     if curves:
         kinds = {scaling.model[0] == "lsm" for scaling in found}

@@ -15,7 +15,7 @@ from programs import SOURCE, Program, refused, run
 sys.path.insert(0, str(SOURCE / "python"))
 import lsm.scaling as scaling  # noqa: E402
 from lsm.drawing import axis  # noqa: E402
-from lsm.scaling import ENDS, NONE, POWER_LAW, SHARPNESS, UNDECIDED, Point, block_length, characteristic_size, error_scale, fit_scaling  # noqa: E402
+from lsm.scaling import NONE, POWER_LAW, UNDECIDED, Point, block_length, characteristic_size, error_scale, fit_scaling  # noqa: E402
 
 SCRIPT = Program("lsm.scaling", sys.executable, "-m", "lsm.scaling", env={"PYTHONPATH": str(SOURCE / "python"), "LC_ALL": "C.UTF-8"})
 DRAWN = ("csv", "png", "svg")
@@ -245,80 +245,11 @@ def test_too_few_points():
     assert fit_scaling([point(120, 2, 0.1)] * 5) == {"why": "all models have the same length"}
 
 
-def growth(s_inf, L_c, D, m=SHARPNESS):
-    return lambda length: s_inf * (1 + (L_c / length)**(D * m))**(-1 / m)
-
-
-DOUBLED = 50, 100, 200, 400, 800, 1600, 3200, 6400
-
-
-def test_exact_growth_that_ends():
-    fit = fit_scaling(points_of(growth(8000.0, 700.0, 0.7), DOUBLED))
-    end = fit["saturation"]
-    assert (end["s_inf"], end["L_c"], end["D"]) == pytest.approx((8000, 700, 0.7), rel=1e-7)
-    assert end["chi2"] == pytest.approx(0, abs=1e-12) and end["aicc"] == pytest.approx(2 * 3 + 24 / 4) and fit["preferred"] == ENDS
-
-
-def test_bends_tell_the_form():
-    """Points on a smooth bend: a sharper curve fits them worse and has another L_c and D."""
-    fit = fit_scaling(points_of(growth(8000.0, 700.0, 0.7, 2), DOUBLED))
-    assert len(fit["bends"]) == 5 and fit["bends"][2] == fit["saturation"]
-    for end in fit["bends"]:
-        if end["m"] == 2:
-            assert (end["L_c"], end["D"], end["chi2"]) == pytest.approx((700, 0.7, 0), abs=1e-3)
-        else:
-            assert end["chi2"] > 1 and abs(end["L_c"] - 700) > end["L_c_error"]
-    assert fit["bends"][-1]["D"] < fit["bends"][0]["D"]
-
-
-def test_growth_that_ends_is_recognised_and_its_errors_cover():
-    rng, truth = np.random.default_rng(6), dict(s_inf=8000.0, L_c=2400.0, D=0.7)
-    law, covers = growth(**truth), {key: Coverage(value) for key, value in truth.items()}
-    for _ in range(60):
-        points = [
-            noisy(length, law(length), 0.02 if length < 1000 else 0.04, rng) for length in (256, 614, 1928, 4000, 8000, 16000, 32000, 64000) * 2
-        ]
-        fit = fit_scaling(points)
-        assert fit["preferred"] == ENDS
-        for key, cover in covers.items():
-            cover.add(fit["saturation"][key], fit["saturation"][f"{key}_error"])
-    for cover in covers.values():
-        cover.check()
-
-
-@pytest.mark.parametrize("repeats", [1, 2])
-def test_no_end_is_seen_where_there_is_none(repeats):
-    rng = np.random.default_rng(9)
-    for D in 0.0, 0.3, 1.0:
-        for number in 6, 10:
-            found = 0
-            for _ in range(40):
-                lengths = [100 * 2.0**(k // repeats) for k in range(number)]
-                fit = fit_scaling([noisy(length, 3 * length**D, 0.03 if k % 2 == 0 else 0.06, rng) for k, length in enumerate(lengths)])
-                found += fit["preferred"] == ENDS
-            assert found <= 3, (D, number)
-
-
-def test_no_growth_that_ends():
-
-    def reason(lengths, L_c, D):
-        fit = fit_scaling(points_of(growth(10.0, L_c, D), lengths, 0.001))
-        assert fit["preferred"] != ENDS or "why" not in fit["saturation"]
-        return fit["saturation"].get("why", "")
-
-    many, outside = [2.0**k for k in range(8)], "no end of growth with two lengths on either side of it"
-    assert reason([1, 2, 4, 8], 3, 1) == "4 usable points, at least 5 needed"
-    assert reason([1, 1, 2, 2, 4, 4], 2, 1) == "3 different lengths, at least 4 needed"
-    assert reason(many, 1.5, 1.0) == reason(many, 90.0, 1.0) == outside
-    assert reason(many, 3.0, 1.0) == reason(many, 40.0, 1.0) == ""
-    assert reason(many, 12.0, -1.0), "the reverse is a decrease that ends, but no growth"
-
-
 def test_texts():
     flat = fit_scaling(points_of(lambda length: 2.0, LENGTHS))
     assert flat["preferred"] == NONE and "shows no significant dependence on the length (s* ~ L^D with D = " in scaling.verdict(flat)
     falling = scaling.verdict(fit_scaling(points_of(lambda length: 1 / length, LENGTHS)))
-    assert "shrinks with the length, which no finite-size effect explains (" in falling and "degenerate: no end of growth" in falling
+    assert "shrinks with the length, which no finite-size effect explains (" in falling
     assert scaling.verdict({"why": "x"}) == "degenerate: x" and "may or may not" in scaling.verdict({**flat, "preferred": UNDECIDED})
 
 
@@ -360,8 +291,6 @@ def test_program(growing):
     assert numbers("g.json")[0]["D"] == pytest.approx(1, rel=0.1)
     do(files("n"), "--json n.json -o n").printed("shows no significant dependence")
     assert numbers("n.json")[0]["preferred"] == "no dependence on the length"
-    for kind in "g", "n":
-        assert "growth up to" not in Path(f"{kind}.svg").read_text(), "a curve of growth that ends without such growth"
     # Errors are by blocks of time, the length of which can be given, or event by event.
     do(files("n"), "--no-picture -o n").printed("bootstrap errors, blocks of time")
     two = files("g", (100, 200))
@@ -380,15 +309,6 @@ def test_program_with_other_growth(growing):
     # For growth that does not follow a power law, s* is 1, 1, 1, 1, 16.
     edit("g1600.csv", "n3200.csv", ("# length = 1600", "# length = 3200"))
     do(files("n", (100, 200, 400, 800, 3200)), "-o p --no-picture").printed("grows with the length, but not as a power law")
-    # For growth that ends, s* is 1, 2, 4, 4, 4, 4, 4.
-    for length in 800, 1600, 3200, 6400:
-        edit("g400.csv", f"s{length}.csv", ("# length = 400", f"# length = {length}"))
-    do("g100.csv g200.csv g400.csv s800.csv s1600.csv s3200.csv s6400.csv", "--json s.json -o s").printed(r"grows with the length up to L_c only \(")
-    pictures("s", endings=DRAWN)
-    assert "growth up to L" in re.sub("<.*?>", "", Path("s.svg").read_text())
-    found, = numbers("s.json")
-    assert found["preferred"] == "growth that ends at a length" and found["saturation"]["L_c"] == pytest.approx(350, rel=0.25)
-    assert found["saturation"]["s_inf"] == pytest.approx(found["points"][-1]["s_star"], rel=0.03)
 
 
 def test_kinds_and_smallest_sizes():
