@@ -152,6 +152,7 @@ if [ -f "$docs/Commands_all.rst" ]; then
         ;;
     esac
   done <"$forms/lists"
+  before "$docs/Howto.rst" "   Howto_spins" <<<"   Howto_lsm_ruptures"
   table=$docs/Packages_list.rst # later versions have it within another page
   [ -f "$table" ] || table=$docs/Packages.rst
   before "$table" '   * - :ref:`MACHDYN <PKG-MACHDYN>`' <"$forms/packages"

@@ -73,6 +73,7 @@ def test_form_of_a_contribution(tree):
     for name in PAGES:
         text = (tree / "doc/src" / name).read_text()
         assert name.startswith("Howto") or re.search(r'\nDescription\n"+\n\n\.\. versionadded:: \w+\n\n\S', text), name
+    assert "\n   Howto_lsm_ruptures\n" in (tree / "doc/src/Howto.rst").read_text()
     sources = [path for path in (tree / "src/LSM").rglob("*") if path.is_file()]
     assert len(sources) > 100 and (tree / "src/LSM/README").is_file()
     for path in sources:
