@@ -14,7 +14,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import yaml
@@ -26,7 +25,6 @@ from recipes import Found, Missing, Numbers, Recipe, RecipeError, meant, read_js
 from run import MPI, PROGRAMS, begun_otherwise, replace  # noqa: E402
 from variables import declared, defaults  # noqa: E402
 
-MOST_ASKED = 40  # settings that are checked one by one
 RESERVED = ("run", "program", "ranks", "settings")
 # Kinds of the values of NAME=VALUE after the table, see config.yaml: whole numbers, or others; "" stands for none
 WHOLE, POSITIVE = ("ranks", "seeds", "checkpoint"), ("hours", "shorten", "minutes")
@@ -311,35 +309,22 @@ class Study:
             self.numbers(run)
 
     def check_values(self):
-        """\\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again.
-        Of very many settings those are asked that have the ends of the values of a variable, or a text that others do not have."""
-        kinds, asked = {}, []
-        for run in self.runs.values():
-            if run.program == "fault" and not Path(run.name, "settings.txt").exists():
-                kinds.setdefault(tuple(word for word in run.words if not word.startswith("seed=")), run)
-        if len(kinds) > MOST_ASKED:
-            values = {}
-            for run in kinds.values():
-                for name, text in run.settings.items():
-                    values.setdefault(name, {}).setdefault(text, run)
-            for found in values.values():
-                numbers = sorted((text for text in found if is_number(text)), key=float)
-                asked += [found[text] for text in found if text in (*numbers[:1], *numbers[-1:]) or not is_number(text)]
-            asked = list(dict.fromkeys(asked))
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            for run, why in zip(asked or kinds.values(), pool.map(self.refusal, asked or kinds.values())):
-                if why:
-                    raise TableError(f"{run.place}: run '{run.name}': {why}")
-
-    def refusal(self, run):
-        """Why LAMMPS refuses the values of a fault; empty if it does not."""
-        script = "lsm_variables fault.variables\natom_style bond\npair_style lsm/friction ${law}\n"
-        names = {one.name for one in declared()}  # others are of scenes for `extra`
-        words = [text for name, value in run.settings.items() if name in names for text in ("-var", name, value)]
-        done = subprocess.run([f"{self.binaries}/lmp", "-log", "none", *words], cwd=INPUTS, input=script, capture_output=True, text=True,
+        """\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again"""
+        names, script = {one.name for one in declared()}, "atom_style bond\n"  # other variables are of scenes for `extra`
+        asked = [run for run in self.runs.values() if run.program == "fault" and not Path(run.name, "settings.txt").exists()]
+        for run in asked:
+            given = {name: value for name, value in run.settings.items() if name in names}
+            script += f"print 'run {run.name}'\n" + "".join(f"variable {name} delete\n" for name in names)
+            script += "".join(f'variable {name} index """{value}"""\n' for name, value in given.items())
+            script += "lsm_variables fault.variables\npair_style lsm/friction ${law}\n"
+        if not asked:
+            return
+        done = subprocess.run([f"{self.binaries}/lmp", "-log", "none"], cwd=INPUTS, input=script, capture_output=True, text=True,
                               env={**os.environ, **MPI})
         said = re.search(r"^ERROR: (.*?)( \(\S+:\d+\))?$", done.stdout, re.M)
-        return said[1] if done.returncode and said else ""
+        if done.returncode and said:
+            run = self.runs[re.findall(r"^run (.*)", done.stdout[:said.start()], re.M)[-1]]
+            raise TableError(f"{run.place}: run '{run.name}': {said[1]}")
 
     def check_programs(self):
         """\\raises TableError if runs need ESyS-Particle and it is not installed"""

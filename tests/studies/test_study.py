@@ -561,12 +561,11 @@ def test_values_that_no_fault_may_have_are_refused_before_anything_runs(study, s
     refused(study, "my.csv -n", f"^study.sh: .*my.csv:3: run 'g': .*{said}", but=NOTES)
 
 
-def test_of_very_many_settings_the_ends_are_asked(plan, monkeypatch):
-    monkeypatch.setattr("study_tables.MOST_ASKED", 3)
-    found, asked = plan("run,program,stress,steps,faces\nf_{stress}_{steps},fault,0.01 0.02 0.03 0.04,10,random\ng,fault,0.02,10,none\n"), []
-    monkeypatch.setattr(found, "refusal", lambda run: asked.append(run.name) or "")
-    found.check_values()
-    assert sorted(asked) == ["f_0.01_10", "f_0.04_10", "g"]
+def test_each_of_many_settings_is_asked(plan):
+    head = "run,program,stress,preset,law\nf_{stress}_{preset},fault,0.01 0.02 0.03 0.04 0.05 0.06,leaky absorbing,\n"
+    plan(head + "g,fault,0.02,,'slip-weakening mu 0.6 mu_static 0.71 dc 0.2 heal 5'\n").check_values()
+    with pytest.raises(TableError, match="my.csv:2: run 'f_-1_absorbing': Variable stress is '-1', but must be a number of at least 0"):
+        plan(head.replace("0.05 0.06,leaky absorbing", "-1 0.06,absorbing leaky")).check_values()
 
 
 def test_what_would_be_submitted_is_said(study):
