@@ -309,7 +309,7 @@ class Study:
             self.numbers(run)
 
     def check_values(self):
-        """\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again"""
+        """\\raises TableError for values that no fault may have, by fault.variables and the friction law; begun runs are not asked again"""
         names, script = {one.name for one in declared()}, "atom_style bond\n"  # other variables are of scenes for `extra`
         asked = [run for run in self.runs.values() if run.program == "fault" and not Path(run.name, "settings.txt").exists()]
         for run in asked:
