@@ -75,7 +75,7 @@ def thinned(source, least):
 
 
 def check_replaced(path):
-    """\raises Refused if the file exists and is no catalogue"""
+    """\\raises Refused if the file exists and is no catalogue"""
     if not path.exists():
         return
     try:
