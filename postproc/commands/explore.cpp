@@ -7,6 +7,7 @@
 #include "command.h"
 #include "explore_page.h"
 #include "input_file.h"
+#include "moment_rate_input.h"
 #include "new_file.h"
 #include "page.h"
 #include "run_files.h"
@@ -70,7 +71,7 @@ class Explore : public Command {
   CatalogueOptions catalogues_;
   ExploreSettings page_;
   RunFiles series_ = RunFiles::series(), ruptures_ = RunFiles::ruptures(),
-           histories_ = RunFiles::history();
+           rates_ = RunFiles::moment_rates(), histories_ = RunFiles::history();
   std::string output_ = "explore.html";
 
   const char *help() const override {
@@ -88,7 +89,7 @@ class Explore : public Command {
     OptionGroup own(command);
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
-    for (RunFiles *files : {&series_, &ruptures_, &histories_}) files->add_to(command);
+    for (RunFiles *files : {&series_, &ruptures_, &rates_, &histories_}) files->add_to(command);
     OptionGroup slip(command, "Slip");
     slip.add("--p-speed", page_.p_speed,
              "Speed of P-waves, by default as measured in packings of create_lsm_fault (paper, "
@@ -136,8 +137,9 @@ class Explore : public Command {
   void run() override {
     const std::vector<std::string> &paths = catalogues_.paths;
     const auto series = series_.of(paths), histories = histories_.of(paths),
-               ruptures = ruptures_.of(paths);
-    for (const auto &files : {paths, series, histories, ruptures}) refuse_input(output_, files);
+               ruptures = ruptures_.of(paths), rates = rates_.of(paths);
+    for (const auto &files : {paths, series, histories, ruptures, rates})
+      refuse_input(output_, files);
     check_replaced(output_, overwrite, is_page_of("explore"));
     std::vector<ExploreRun> runs = load_events(ruptures);
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -147,6 +149,10 @@ class Explore : public Command {
         runs[i].series = load_series(series[i], catalogues_);
         check_same_run(header, {series[i], runs[i].series->info.header()});
         check_same_start(drops, *runs[i].series);
+      }
+      if (!rates[i].empty()) {
+        runs[i].moment_rates = read_moment_rates(rates[i]);
+        check_same_run(header, {rates[i], runs[i].moment_rates->parameters});
       }
       if (histories[i].empty()) continue;
       SlipHistoryReader history = open_history(histories[i], catalogues_.lenient);
@@ -163,6 +169,9 @@ class Explore : public Command {
         fmt::print("{}: {} events, {} thresholds\n", kind.table.path, kind.table.events.size(),
                    kind.thresholds.size());
       if (one.series) fmt::print("{}: {} samples\n", one.series->path, one.series->samples);
+      if (one.moment_rates)
+        fmt::print("{}: moment rates of {} ruptures\n", one.moment_rates->path,
+                   one.moment_rates->ids.size());
       if (one.history)
         fmt::print("{}: {} places, {} times\n", one.history_path, one.history->columns,
                    one.history->ends.size());

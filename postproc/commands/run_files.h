@@ -33,6 +33,10 @@ class RunFiles {
   static RunFiles ruptures() {
     return {"--ruptures", "Catalogue of the ruptures of the run", ".ruptures.csv"};
   }
+  static RunFiles moment_rates() {
+    return {"--moment-rates", "Moment rates of the ruptures, of python3 -m lsm.sources",
+            "-moment-rates.csv"};
+  }
   static RunFiles history() { return {"--history", "Slip history of the run", ".slip.bin"}; }
 
   void add_to(CLI::App *command);

@@ -97,11 +97,17 @@ def _number(path, header, name, kind=float):
         raise ValueError(f"{path}: parameter '{name}' {said}, expected a number") from None
 
 
+def lines_of(path):
+    """The complete lines of a text, compressed or not."""
+    lines = [line.removesuffix("\r") for line in _bytes(path).decode("utf-8-sig", "replace").split("\n")]
+    lines.pop()  # the incomplete last line, or the empty text after the last line end
+    return lines
+
+
 def read_catalogue(path, lenient=False):
     """Reads the events of a catalogue; columns of integers are int64, all others float64. Further columns whose first value is no number
     are left out. lenient: leaves out lines that cannot be read."""
-    lines = [line.removesuffix("\r") for line in _bytes(path).decode("utf-8-sig", "replace").split("\n")]
-    lines.pop()  # the incomplete last line, or the empty text after the last line end
+    lines = lines_of(path)
     if not lines or not lines[0].startswith("# lsm-catalogue "):
         raise ValueError(f"{path}: no catalogue, expected '# lsm-catalogue 1' in the first line")
     if lines[0].strip() != "# lsm-catalogue 1":

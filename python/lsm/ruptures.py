@@ -8,8 +8,8 @@ label, so that runs of one model share a label, drop of the total
 PE, which the paper expects to be proportional, against moment (BASE-pe), and stress drop against moment (BASE-stress). With the slip
 history of the first catalogue's run: the slip velocity in space and time with the ruptures outlined (BASE-spacetime), lines of the
 slip along the fault (BASE-lines), and the rupture of the largest moment in detail (BASE-event); of a plane, maps of that rupture, of
-its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip velocity (BASE-rate), and its moment rate
-(BASE-momentrate). Each is a table, BASE-NAME.csv, and its picture, .png and .svg. Quantities are in model units.
+its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip velocity (BASE-rate); of both its moment rate
+(BASE-momentrate). Moment rates of all ruptures, and their energies: lsm.sources. Each is a table, BASE-NAME.csv, and its picture, .png and .svg. Quantities are in model units.
 """
 import argparse
 import math
@@ -472,6 +472,16 @@ def line_figures(history, one, begin, end, speeds):
     yield from detail(history, event, speeds)
 
 
+def momentrate_figure(event, what, columns):
+    """columns: times, moment rates, and of a plane those along strike and along dip"""
+    curves = [f"table using 1:2 with lines lc rgb '#bbbbbb' lw 5 title '{what}'", "table using 1:3 with lines lt 1 title 'along strike'",
+              "table using 1:4 with lines lt 2 title 'along dip'"] if len(columns) > 2 else [f"table using 1:2 with lines lt 1 title '{what}'"]  # yapf: disable
+    return Figure("-momentrate", [f"rupture {event['event_id']}: time since it began, {event['t_start']:.8g}, moment per time"],
+                  ",".join(["time", "moment_rate", "along_strike", "along_dip"][:len(columns)]), list(zip(*columns)), "set datafile columnheaders\n" + KEY
+                  + axis("x", "Time since the rupture began (model units)", 0.0, event["t_end"] - event["t_start"])
+                  + axis("y", "Moment rate (model units)") + f"plot {', '.join(curves)}")  # yapf: disable
+
+
 def detail(history, event, speeds):
     """One rupture: the slip velocity around its first place, the fronts of P- and S-waves from there, and its slip along the fault."""
     bins, bin = history.bins, history.bin
@@ -491,6 +501,12 @@ def detail(history, event, speeds):
     rows += [[4, x0 + (b + 0.5) * bin, value] for b, value in enumerate(slip.tolist())]
     yield Figure("-event-lines", ["curve 1: outline; 2: P-wave, 3: S-wave from the first place (x, time); 4: slip of the rupture (x, slip)"],
                  "curve,x,y", rows)
+    places = (round((event["x_begin"] - history.x0) / bin) + np.arange(min(bins, round(event["rupture_length"] / bin)))) % bins
+    moved = history.records["slip"][inside][:, places].astype(float)
+    moved[np.abs(moved) <= history.head["slip_velocity"] * history.duration] = 0.0
+    lasting = (history.end - history.begin)[inside]
+    yield momentrate_figure(event, "along the fault", [(0.5 * (history.begin + history.end)[inside] - start).tolist(),
+                                                       (history.head["modulus"] * bin * moved.sum(axis=1) / lasting).tolist()])  # yapf: disable
     values, height, width = image(history, kept, begin, end, 600)
     values = np.roll(values, -(shift * values.shape[1] // bins), axis=1)
     yield Figure(
@@ -608,11 +624,7 @@ def plane_figures(history, one, begin, end, arrival):
                      ", base.'-contours.csv' using 2:3:($4-$2):($5-$3) with vectors nohead lc rgb '#000000' lw 1")
     yield map_figure(plane, event, "-rate", plane.rate, "peak_slip_rate", "Largest slip velocity", FLAME + "set cbrange [0:*]\n")
     time, along, down = plane.moment
-    yield Figure("-momentrate", [f"rupture {event['event_id']}: time since it began, {event['t_start']:.8g}, moment per time"],
-                 "time,moment_rate,along_strike,along_dip", list(zip(time, np.hypot(along, down), along, down)), "set datafile columnheaders\n" + KEY
-                 + axis("x", "Time since the rupture began (model units)", 0.0, event["t_end"] - event["t_start"]) + axis("y", "Moment rate (model units)")
-                 + "plot table using 1:2 with lines lc rgb '#bbbbbb' lw 5 title 'length of both', table using 1:3 with lines lt 1 title 'along strike', "
-                 "table using 1:4 with lines lt 2 title 'along dip'")  # yapf: disable
+    yield momentrate_figure(event, "length of both", [time, np.hypot(along, down), along, down])
 
 
 # ---- the program

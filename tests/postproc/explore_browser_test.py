@@ -10,6 +10,7 @@ import datetime
 import json
 import math
 import os
+import pathlib
 import shlex
 import random
 import re
@@ -94,7 +95,12 @@ class Page(unittest.TestCase):
             run(slider, "--blocks", "256", "--steps", "600000", "--catalogue", "run.catalogue.csv", "--pe-series", "run.pe.bin")
         run(slider, "--blocks", "128", "--steps", "600000", "--catalogue", "other.csv")
         add_header("run.catalogue.csv", f"note = {HOSTILE}")
-        run(postproc, "explore", "run.catalogue.csv", "-o", "page.html", "--title", HOSTILE)
+        ruptures = []
+        if fault:
+            subprocess.run([sys.executable, "-m", "lsm.sources", "run.ruptures.csv", "--no-picture"], check=True, stdout=subprocess.DEVNULL,
+                           env={**os.environ, "PYTHONPATH": str(pathlib.Path(fault[1]).parents[1] / "python")})
+            ruptures = ["--ruptures", "run.sources.csv"]
+        run(postproc, "explore", "run.catalogue.csv", *ruptures, "-o", "page.html", "--title", HOSTILE)
         earthquakes("quakes.csv")
         run(postproc, "explore", "quakes.csv", "-o", "quakes.html")
         run(postproc, "explore", "run.catalogue.csv", "other.csv", "--label", HOSTILE, "--label", "slider", "-o", "two.html")
@@ -385,13 +391,17 @@ class Page(unittest.TestCase):
             run(postproc, *words, "--no-picture", "--replicas", "0")
 
     def test_ruptures_and_their_slip(self):
-        ruptures = catalogue("run.ruptures.csv")
+        ruptures = catalogue("run.sources.csv")
+        self.assertFalse(self.one("#event-moment-rate").is_displayed())
         self.js("const kind = document.getElementById('kind'); kind.value = 'ruptures'; kind.dispatchEvent(new Event('change'))")
         self.settle()
         largest = max(ruptures, key=lambda event: event["size"])
-        for column in ("size", "slip_moment", "rupture_length", "x_hypocentre", "mean_slip"):
+        for column in ("size", "slip_moment", "rupture_length", "x_hypocentre", "mean_slip", "radiated_energy"):
             self.assertEqual(self.number(column), largest[column])
         self.assertTrue(self.one("#event-slip").is_displayed())
+        self.assertTrue(self.one("#event-moment-rate").is_displayed())
+        moment = float(self.one("#moment-rate").get_attribute("data-moment"))
+        self.assertLess(abs(moment / largest["slip_moment"] - 1), 1e-5)
         # Slip along the fault, summed over its bins, is that of all ruptures of these times.
         slip = self.js("return app.runs[0].slip.slipBetween(arguments[0], arguments[1]).reduce((a, b) => a + b)", largest["t_start"],
                        largest["t_end"])

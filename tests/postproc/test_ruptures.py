@@ -201,11 +201,18 @@ def test_detail_is_centred_on_the_first_place(line):
     assert next(slip for n, x, slip in found if n == 4 and x == 0) == pytest.approx(0.04, abs=1e-7)
 
 
+def test_moment_rate_of_a_line(line):
+    """The largest rupture slips by 0.03 in two intervals of 1, the second time by 0.02 in one of its two bins."""
+    found = line["-momentrate"].rows
+    assert [time for time, _ in found] == pytest.approx([0.5, 1.5])
+    assert [rate for _, rate in found] == pytest.approx([0.4 * 2 * 0.03, 0.4 * 2 * 0.02])
+
+
 def test_pictures_of_a_line(line):
     more = "3,53.5,54,12,16,1,1,0,0.008,6,9,8,1\n4,53.6,54,12,16,1,1,0,0.004,8,9,8,1\n"
     Path("three.csv").write_text(Path("r.csv").read_text() + more)
     do("three.csv --history slip.bin --p-speed 2 --s-speed 1 -o h --label", ["`touch marker` {a}_b"])
-    pictures("h-spacetime", "h-lines", "h-event", "h-moments", endings=DRAWN)
+    pictures("h-spacetime", "h-lines", "h-event", "h-momentrate", "h-moments", endings=DRAWN)
     assert not Path("marker").exists()
     said("h-event.svg", "P-wave, speed 2")
     said("h-pe.svg", re.escape("`touch marker` {a}_b (4 ruptures)"))

@@ -37,6 +37,7 @@ const std::set<std::string_view> &further_columns() {
     add_names(names, friction_of_drops);
     add_names(names, columns_of_ruptures);
     add_names(names, columns_of_planes);
+    names.insert(names.end(), std::begin(columns_of_sources), std::end(columns_of_sources));
     return std::set<std::string_view>(names.begin(), names.end());
   }();
   return all;

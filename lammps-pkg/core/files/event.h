@@ -95,6 +95,12 @@ inline constexpr EventColumn<PlaneRupture> columns_of_planes[] = {
     {"z_begin", &PlaneRupture::z_begin},
     {"peak_slip_rate", &PlaneRupture::peak_slip_rate}};
 
+/// What python3 -m lsm.sources adds to ruptures; programs only read it.
+inline constexpr std::string_view columns_of_sources[] = {
+    "source_duration", "peak_moment_rate",     "centroid_time",   "stress_work",
+    "friction_work",   "contact_energy",       "radiated_energy", "apparent_stress",
+    "fracture_energy", "weighted_stress_drop", "corner_frequency"};
+
 /// Calls use(table) for each table of columns that events of the kind have.
 template <class Use>
 void each_table(const Event *, Use &&) {}

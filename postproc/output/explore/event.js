@@ -11,7 +11,11 @@ const columnNames = {
   stress_drop: ['Stress drop', 'stress'], peak_slip: ['Largest slip', 'length'],
   moment_strike: ['Moment along strike', ''], moment_dip: ['Moment along dip', ''], rupture_width: ['Width along dip', 'length'],
   rupture_area: ['Area', 'area'], z_centroid: ['Centre, z', 'place'], z_hypocentre: ['First place, z', 'place'], z_begin: ['From, z', 'place'],
-  peak_slip_rate: ['Largest slip rate', 'velocity']
+  peak_slip_rate: ['Largest slip rate', 'velocity'],
+  source_duration: ['Duration of 5 to 95 % of the moment', 'time'], peak_moment_rate: ['Largest moment rate', ''], centroid_time: ['Centroid time', 'time'],
+  stress_work: ['Work of stress', 'energy'], friction_work: ['Work of friction', 'energy'], contact_energy: ['Stored by contacts', 'energy'],
+  radiated_energy: ['Radiated energy', 'energy'], apparent_stress: ['Apparent stress', 'stress'], fracture_energy: ['Fracture energy', 'energy'],
+  weighted_stress_drop: ['Stress drop by slip', 'stress'], corner_frequency: ['Corner frequency', '1 / time']
 };
 
 class EventPanel {
@@ -20,7 +24,7 @@ class EventPanel {
     this.find = id => document.getElementById(id);
     this.find('zoom-event').addEventListener('click', () => app.zoomToEvent());
     this.find('slip-map').addEventListener('pointermove', event => this.readSlip(event));
-    new ResizeObserver(oncePerFrame(() => this.drawSlip())).observe(this.find('event-numbers'));
+    new ResizeObserver(oncePerFrame(() => { this.drawMomentRate(); this.drawSlip(); })).observe(this.find('event-numbers'));
   }
 
   show(run, index) {
@@ -43,7 +47,37 @@ class EventPanel {
       list.append(pair);
     }
     this.showOthers(events);
+    this.drawMomentRate();
     this.drawSlip();
+  }
+
+  /** The width of pictures of the event. */
+  get width() { return Math.min(640, this.find('event-numbers').clientWidth || 480); }
+
+  drawMomentRate() {
+    const events = this.run && this.app.eventsOf(this.run);
+    const source = events && events.info.kind === 'ruptures' && this.run.momentRates
+      ? this.run.momentRates.get(events.columns.event_id[this.index]) : undefined;
+    this.find('event-moment-rate').hidden = !source;
+    if (!source) return;
+    const canvas = this.find('moment-rate'), width = this.width, context = sharp(canvas, width, 200), {rates, interval} = source;
+    const box = {x: 72, y: 8, w: width - 90, h: 150}, span = rates.length * interval;
+    const most = Math.max(...rates) || 1, least = Math.min(0, ...rates);
+    const y = value => box.y + box.h - (value - least) / (1.05 * most - least) * box.h;
+    context.beginPath();
+    context.moveTo(box.x, y(0));
+    rates.forEach((value, k) => {
+      context.lineTo(box.x + box.w * k / rates.length, y(value));
+      context.lineTo(box.x + box.w * (k + 1) / rates.length, y(value));
+    });
+    context.lineTo(box.x + box.w, y(0));
+    context.fillStyle = '#cfe3f1';
+    context.fill();
+    context.strokeStyle = '#0072B2';
+    context.stroke();
+    drawAxes(context, box, {from: 0, to: span, title: 'Time since it began'}, {from: least, to: 1.05 * most, title: 'Moment rate'});
+    canvas.setAttribute('aria-label', `Moment rate over ${short(span, 4)} time units, at most ${short(most, 4)}`);
+    canvas.dataset.moment = String(rates.reduce((sum, value) => sum + value * interval, 0));
   }
 
   /** Ruptures within a drop of PE, or the drop of PE that a rupture is part of. */
@@ -83,7 +117,7 @@ class EventPanel {
     const inside = row >= 0 && row < slip.ends.length;
     figure.hidden = !inside;
     if (!inside) return;
-    const width = Math.min(640, this.find('event-numbers').clientWidth || 480);
+    const width = this.width;
     const origin = this.origin(events), n = slip.columns, info = slip.info;
     // The place where it began in the middle: the fault is periodic.
     const shift = ((slip.columnAt(origin) - (n >> 1)) % n + n) % n;
