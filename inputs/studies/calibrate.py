@@ -7,7 +7,7 @@ calibrate.py propose OUT.csv LENGTH N [POINTS.csv [NAME,...]]   adds N points to
                                              with names of statements, all from what these make likely, whether printed or not
 calibrate.py collect BIN POINTS.csv FOLDER...   numbers of runs of a study, one row for each run and memory of the picker; rows of other runs
                                              that the file has stay
-calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, what they predict, OUT.statements.csv, and OUT.png and .svg
+calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, and what they predict, OUT.statements.csv
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up; rows of other
                                              runs that the file has stay
 
@@ -28,7 +28,6 @@ from typing import NamedTuple
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
 from lsm import LOADING, summary  # noqa: E402
-from lsm.drawing import draw  # noqa: E402
 from lsm.paper import RANGES, SLIDER_SETTINGS, STATEMENTS, STATEMENTS_BY_NAME, STEPS, WINDOWS, WORDED, completed, printed  # noqa: E402
 from lsm.tables import read, write_table  # noqa: E402
 from variables import defaults  # noqa: E402
@@ -301,15 +300,6 @@ def propose(output, length, count, points=None, names=None):
 
 # ---- posterior
 
-# Axes of the figure: label, tics
-SHOWN = {
-    "stress": ("normal stress", "0.01, 0.02, 0.04"),
-    "viscosity": ("viscosity", "'0' 5e-5, '10^{-3}' 1e-3, '0.01' 0.01"),
-    "kt": ("tangential spring", "0.03, 0.1, 0.3, 1"),
-    "mus": ("static friction", "0.6, 0.7, 0.8"),
-    "impedance": ("impedance", "0, 0.2, 0.4, 0.6"),
-    "memory": ("memory", "0.3, 0.6, 1, 2"),
-}
 KEPT = 500  # samples of the posterior
 
 
@@ -356,56 +346,11 @@ def posterior(path, base):
         "Shares of prior and posterior that are predicted to; left_out:"
         " error of the surrogate at points that it was not given, of the number or its logarithm, and their standard deviation"
     ], lines)
-    figure(rows, out, base)
 
 
 UNPRINTED_KEYS = tuple(
     dict.fromkeys([key for key, one in UNPRINTED.items() if isinstance(one, Value)] +
                   [key for one in UNPRINTED.values() if isinstance(one, Choice) for key in one.other]))
-
-
-def figure(rows, samples, base):
-    """Marginals and pairs of the posterior (orange) beside the points that were run (grey)."""
-    values = {key: UNPRINTED.get(key, MEMORY) for key in SHOWN}
-
-    def at(row, key):
-        return max(float(row[key] or 0), 0.5 * values[key].low) if values[key].log else float(row[key] or 0)
-
-    def axis(name, key, wanted):
-        low, high = values[key].low, values[key].high
-        low, high = (0.4 * low if key == "viscosity" else 0.9 * low, 1.1 * high) if values[key].log else (low - 0.05 * (high - low),
-                                                                                                          1.05 * high - 0.05 * low)
-        label, tics = SHOWN[key]
-        tics = tics if wanted else re.sub("'[^']*'", "''", tics)
-        return (f"{'set' if values[key].log else 'unset'} logscale {name}\nset {name}range [{low}:{high}]\nset {name}tics ({tics})\n"
-                f"set format {name} '{'%g' if wanted else ''}'\nset {name}label '{label if wanted else ''}'\n")
-
-    runs = list({row["point"]: row for row in rows if row["length"] == "120"}.values())
-    n = len(SHOWN)
-    script = f"set multiplot layout {n},{n} margins 0.09,0.99,0.08,0.99 spacing 0.015\nunset key\nset datafile separator\n"
-    for i, y in enumerate(SHOWN):
-        for j, x in enumerate(SHOWN):
-            script += axis("x", x, i == n - 1)
-            if j > i:
-                script += "set multiplot next\n"
-            elif i == j:
-                bins = [(math.log(v) if values[x].log else v) for v in (at(one, x) for one in samples)]
-                low, high = (math.log(v) if values[x].log else v for v in (values[x].low, values[x].high))
-                low -= math.log(2) if x == "viscosity" else 0.0  # half of the lowest stands for none
-                step, counts = (high - low) / 14, [0] * 14
-                for v in bins:
-                    counts[min(13, max(0, math.floor((v - low) / step)))] += 1
-                middle = [low + (k + 0.5) * step for k in range(14)]
-                script += "unset logscale y\nset yrange [0:*]\nset format y ''\n" + f"set ylabel '{'share' if j == 0 else ''}'\n"
-                script += "unset ytics\nplot '-' w boxes fs solid 0.6 noborder lc rgb '#d55e00'\n"
-                script += "".join(f"{math.exp(m) if values[x].log else m:.5g} {c}\n" for m, c in zip(middle, counts)) + "e\n"
-            else:
-                script += axis("y", y, j == 0) + "plot '-' w p pt 7 ps 0.25 lc rgb '#999999', '-' w p pt 7 ps 0.3 lc rgb '#d55e00'\n"
-                for some in (runs if "memory" not in (x, y) else samples, samples):  # a run is picked with all memories
-                    script += "".join(f"{at(one, x):.5g} {at(one, y):.5g}\n" for one in some) + "e\n"
-    script += "unset multiplot\n"
-    draw(base, script, 1100, 950)
-
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["propose"] and 5 <= len(sys.argv) <= 7:
