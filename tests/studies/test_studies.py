@@ -21,7 +21,7 @@ from programs import INPUTS, Program, refused, run, start
 from slurm import Slurm, said
 
 sys.path.insert(0, str(INPUTS / "studies"))
-from study_tables import Study, TableError, read_runs, with_defaults  # noqa: E402
+from study_tables import Study, with_defaults  # noqa: E402
 
 RUNS = """run,program,length,blocks,steps,ranks,settings
 one,fault,40,,150000,1,preset=absorbing width=20 settle=500 velocity=0.01 thermo=1000
@@ -240,49 +240,6 @@ def test_disk_full(studies, small_disk):
     small_disk(64)
     studies.run("small/part", settings)
     same("small/part/fault.catalogue.csv", "whole/fault.catalogue.csv", 15)
-
-
-HEAD = "run,program,blocks,seed,steps,settings\n"
-
-
-def read(text, **config):
-    Path("t.csv").write_text(text)
-    return read_runs("t.csv", config)
-
-
-def test_tables():
-    """The runs that a table asks for."""
-    found = read(HEAD + "# comment\ns_{blocks}_{seed},slider,100 200,1-3,1e5,paper=yes\n", seeds="2", shorten="10")
-    assert list(found) == ["s_100_1", "s_100_2", "s_200_1", "s_200_2"]
-    assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"]
-    found = read("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
-    assert {name: one.ranks for name, one in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}
-    # Numbers keep their digits.
-    assert "time=1234567.5" in read("run,program,time\nf,slider,1234567.5\n")["f"].words
-    # Values of several words are quoted; a run without a name is named after them, without blanks.
-    words = "leap=yes 'leaping=slip 1.5 grow 60'"
-    found = read(f"run,program,law,settings\nl,fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n")
-    assert list(found) == [
-        "l", "fault_law-coulomb-0.6-0.7_leap-yes_leaping-slip-1.5-grow-60", "fault_law-velocity-weakening-mu-0.6_leap-yes_leaping-slip-1.5-grow-60"
-    ]
-    assert found["l"].words == ["law=coulomb", "leap=yes", "leaping=slip 1.5 grow 60"]
-    assert list(found.values())[2].words[0] == "law=velocity-weakening mu 0.6"
-
-
-@pytest.mark.parametrize("text, said",
-                         [("", "t.csv: empty, expected a table of runs"), ("run,steps\n", "t.csv:1: no column 'program', expected one"),
-                          (HEAD + "s,slider,100\n", "t.csv:2: 3 cells, expected 6 as in the first line"),
-                          (HEAD + "s,chain,100,1,1e5,\n",
-                           "t.csv:2: program 'chain', expected fault, slider, esys, catalogue, rupture_tpv205, rupture_tpv3 or rupture_tpv5"),
-                          (HEAD + "s,slider,100 200,1,1e5,\n", "t.csv:2: there is a run 's' already, expected another name"),
-                          (HEAD + "s_{size},slider,100,1,1e5,\n", "t.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
-                          (HEAD + "a/b,slider,100,1,1e5,\n", "t.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
-                          (HEAD + "s,slider,100,1,many,\n", "t.csv:2: steps 'many', expected a number above 0"),
-                          (HEAD + "s,slider,100,1,1e5,kl\n", "t.csv:2: settings 'kl', expected NAME=VALUE")])
-def test_wrong_tables(text, said):
-    with pytest.raises(TableError) as error:
-        read(text)
-    assert str(error.value) == said
 
 
 def likeliest_exponent(sizes, low, high):

@@ -23,10 +23,11 @@ sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 from lsm import LOADING  # noqa: E402
 from progress import RunProgress  # noqa: E402
 from recipes import RecipeError, found, ratio  # noqa: E402
-from study_tables import Study, TableError, with_defaults  # noqa: E402
+from study_tables import Study, TableError, read_runs, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,preset=absorbing width=20 settle=100 velocity=0.02 stress=0.003\n"
+BLOCKS = "run,program,blocks,seed,steps,settings\n"
 CHAIN = "run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1,1e5,velocity=0.05 warmup=0\n"
 RECIPE = """def numbers(run):
     return {"count": f"count {run.catalogue}", "sizes": f"count {run.catalogue} --size 1e-3"}
@@ -485,22 +486,51 @@ def test_names_that_programs_do_not_have_are_refused(plan):
     ("run,program\nc,slider\n".encode("utf-16-le"), "my.csv:1: not UTF-8, expected a table of runs in UTF-8"),
     ("run,program,seed\nc,slider,3-1\n", "my.csv:2: seed '3-1', expected the smaller one first"),
     ("run,program,seed,settings\nc,slider,1,seed=5\n", "my.csv:2: settings 'seed=5', but there is seed=1 already"),
-    ("run,program,settings\nc,slider,kl=1 kl=2\n", "my.csv:2: settings 'kl=2', but there is kl=1 already"),
     ("run,program,settings\nc,slider,ranks=2\n", "my.csv:2: settings 'ranks=2', but ranks is a column"),
     ("run,program,ranks\nc,slider,2\n", "my.csv:2: ranks '2' of program 'slider', expected them for faults only"),
     ("run,program,ranks\nf,fault,0\n", "my.csv:2: ranks '0', expected a whole number above 0"),
-    ("run,program,steps\nc,slider,-5\n", "my.csv:2: steps '-5', expected a number above 0"),
     ("run,program,blocks\nc,slider,\"100\n", "my.csv:2: unexpected end of data"),
     ("run,program\n", "my.csv: no run, expected one at least"),
+    ("", "my.csv: empty, expected a table of runs"),
+    ("run,steps\n", "my.csv:1: no column 'program', expected one"),
+    (BLOCKS + "s,slider,100\n", "my.csv:2: 3 cells, expected 6 as in the first line"),
+    (BLOCKS + "s,chain,100,1,1e5,\n",
+     "my.csv:2: program 'chain', expected fault, slider, esys, catalogue, rupture_tpv205, rupture_tpv3 or rupture_tpv5"),
+    (BLOCKS + "s,slider,100 200,1,1e5,\n", "my.csv:2: there is a run 's' already, expected another name"),
+    (BLOCKS + "s_{size},slider,100,1,1e5,\n", "my.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
+    (BLOCKS + "a/b,slider,100,1,1e5,\n", "my.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
+    (BLOCKS + "s,slider,100,1,many,\n", "my.csv:2: steps 'many', expected a number above 0"),
+    (BLOCKS + "s,slider,100,1,1e5,kl\n", "my.csv:2: settings 'kl', expected NAME=VALUE"),
     ("run,program\n# a\nd\xe9j\xe0,slider\n".encode("latin-1"), "my.csv:3: not UTF-8, expected a table of runs in UTF-8"),
     ("run,program\ntable.csv,slider\n", "my.csv:2: run 'table.csv', expected another name, as results have this one"),
-    ("run,program\nslurm,slider\n", "my.csv:2: run 'slurm', expected another name, as results have this one"),
-    ("run,program\nd\xe9j\xe0,slider\n", "my.csv:2: run 'd\xe9j\xe0', expected letters, digits, '.', '_', '+' and '-'"),
 ])
 def test_tables_that_say_what_is_wrong(plan, text, said):
     with pytest.raises(TableError) as error:
         plan(text)
     assert str(error.value) == said
+
+
+def read(text, **config):
+    Path("t.csv").write_text(text)
+    return read_runs("t.csv", config)
+
+
+def test_runs_of_a_table():
+    found = read(BLOCKS + "# comment\ns_{blocks}_{seed},slider,100 200,1-3,1e5,paper=yes\n", seeds="2", shorten="10")
+    assert list(found) == ["s_100_1", "s_100_2", "s_200_1", "s_200_2"]
+    assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"]
+    found = read("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
+    assert {name: one.ranks for name, one in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}
+    # Numbers keep their digits.
+    assert "time=1234567.5" in read("run,program,time\nf,slider,1234567.5\n")["f"].words
+    # Values of several words are quoted; a run without a name is named after them, without blanks.
+    words = "leap=yes 'leaping=slip 1.5 grow 60'"
+    found = read(f"run,program,law,settings\nl,fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n")
+    assert list(found) == [
+        "l", "fault_law-coulomb-0.6-0.7_leap-yes_leaping-slip-1.5-grow-60", "fault_law-velocity-weakening-mu-0.6_leap-yes_leaping-slip-1.5-grow-60"
+    ]
+    assert found["l"].words == ["law=coulomb", "leap=yes", "leaping=slip 1.5 grow 60"]
+    assert list(found.values())[2].words[0] == "law=velocity-weakening mu 0.6"
 
 
 def test_tables_that_are_right(plan, work):
