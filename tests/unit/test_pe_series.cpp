@@ -343,7 +343,9 @@ TEST_F(PeSeries, ResumeGoesOnAsIfNeverInterrupted) {
     PeSeriesWriter writer;
     const std::int64_t kept = (at - 98) / 2;
     EXPECT_EQ(resume(writer, file(), some_info(), at), kept);
-    if (kept > 0) EXPECT_THROW(writer.write(100 + 2 * (kept - 1), 1.0), FileError);
+    if (kept > 0) {
+      EXPECT_THROW(writer.write(100 + 2 * (kept - 1), 1.0), FileError);
+    }
     for (std::int64_t step = 100 + 2 * kept; step <= 20000; step += 2)
       writer.write(step, some_pe(step));
     writer.close();
