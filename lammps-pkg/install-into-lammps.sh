@@ -3,11 +3,12 @@
 # Copies the package into a LAMMPS source tree as package LSM, its pages into doc/src, and the scenes into
 # examples/PACKAGES/lsm, each in the form that LAMMPS asks of contributions: its notice in sources, version tags in
 # pages, entries in all lists of packages and styles. Can be repeated: files and entries are replaced.
-# usage: install-into-lammps.sh LAMMPS_FOLDER
+# LMP is a program with the package, to write the logs of examples on one and four ranks with.
+# usage: install-into-lammps.sh LAMMPS_FOLDER [LMP]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-if [ $# -ne 1 ]; then
-  echo "usage: $0 LAMMPS_FOLDER   (the top folder of a LAMMPS source tree)" >&2
+if [ $# -lt 1 ] || [ $# -gt 2 ]; then
+  echo "usage: $0 LAMMPS_FOLDER [LMP]   (the top folder of a LAMMPS source tree; a program to write logs of examples with)" >&2
   exit 2
 fi
 lammps=$1
@@ -18,6 +19,10 @@ for f in "$lammps/src/version.h" "$list"; do
     exit 1
   }
 done
+[ -z "${2:-}" ] || [ -x "$2" ] || {
+  echo "install-into-lammps: $2 is not a program; expected an lmp with the package" >&2
+  exit 1
+}
 version=$(sed -n 's/.*LAMMPS_VERSION *"\(.*\)".*/\1/p' "$lammps/src/version.h")
 case $version in
   "4 Feb 2025" | "4 Jul 2026") ;;
@@ -119,6 +124,29 @@ for scene in "$here"/../inputs/*.in; do
   name=${scene##*/}
   sed -E 's/([[:alnum:]_*${}]+)\.in\b/in.\1/g' "$scene" >"$lammps/examples/PACKAGES/lsm/in.${name%.in}"
 done
+if [ $# = 2 ]; then
+  . "$here/../inputs/mpi-settings.sh"
+  lmp=$(realpath "$2")
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  while read -r name options; do
+    for ranks in 1 4; do
+      rm -rf "$work/lsm"
+      cp -r "$lammps/examples/PACKAGES/lsm" "$work"
+      # shellcheck disable=SC2086
+      (cd "$work/lsm" && mpirun -np $ranks "$lmp" -in "in.$name" $options -log log -screen none </dev/null) || {
+        echo "install-into-lammps: in.$name does not run on $ranks ranks with $2" >&2
+        exit 1
+      }
+      of=$(sed -n '1s/LAMMPS (\([^-)]*\).*/\1/p' "$work/lsm/log")
+      sed "s|$work/lsm/||g" "$work/lsm/log" >"$lammps/examples/PACKAGES/lsm/log.${of// /}.$name.g++.$ranks"
+    done
+  done <"$forms/logs"
+  {
+    echo "The logs are of runs with these options:"
+    sed 's/^\([^ ]*\)/  -in in.\1/' "$forms/logs"
+  } >"$lammps/examples/PACKAGES/lsm/README"
+fi
 if ! grep -q '^  LSM$' "$list"; then
   sed -i 's/^set(STANDARD_PACKAGES$/&\n  LSM/' "$list"
 fi
