@@ -7,7 +7,6 @@
 #include "error.h"
 #include "lsm_scene.h"
 #include "neighbor.h"
-#include "pair_lsm_friction.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -48,9 +47,8 @@ void FixLSMHistory::init()
 
 void FixLSMHistory::pre_exchange()
 {
-  static_cast<PairLSMFriction *>(pair)->note_contacts();
+  near->write_states(*this);
   FixNeighHistory::pre_exchange();
-  gathered = true;
 }
 
 void FixLSMHistory::post_neighbor()
@@ -78,7 +76,7 @@ void FixLSMHistory::add_pair(int i, int jj)
 // already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {
-  if (!gathered) pre_exchange();
+  if (near->has_changed()) pre_exchange();
   if (comm->me) return;
   const int size = law.empty() ? 0 : static_cast<int>(law.size()) + 1;
   fwrite(&size, sizeof(int), 1, fp);

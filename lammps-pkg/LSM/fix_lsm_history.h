@@ -32,15 +32,14 @@ class FixLSMHistory : public FixNeighHistory, public LSMContactStore {
   int *touch_of(int i, int jj) override { return &firstflag[i][jj]; }
   double *values_of(int i, int jj) override { return &firstvalue[i][dnum * jj]; }
   void add_pair(int i, int jj) override;
-  /// Contacts have been evaluated.
-  void contacts_changed() { gathered = false; }
+
+  LSMNearPairs *near = nullptr;    // which has the states of contacts; set by the pair style
 
  private:
   struct Row {
     std::vector<int> touch;
     std::vector<double> values;
   };
-  bool gathered = true;                 // each particle has its contacts as they are
   std::unordered_map<int, Row> rows;    // of particles to whose neighbors pairs were added
   const std::string law;    // friction law of the contacts, "" if it has no state of its own
   const char *law_of_file;

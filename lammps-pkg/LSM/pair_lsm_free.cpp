@@ -47,7 +47,7 @@ void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  near.update(*list, contact_radii());
+  near.update(*list, contact_radii(), nullptr);
   if (evflag)
     loop<LSMRecordAndTally>();
   else if (record_what)
@@ -86,7 +86,6 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
     }
     const double r0 = radius[i] + radius[j];
     if (rsq >= r0 * r0) continue;
-    if (screened && near.is_left_out(near[n])) continue;
 
     const double kij = k[type[i]][type[j]];
     const double r = sqrt(rsq);

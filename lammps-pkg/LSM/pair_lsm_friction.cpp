@@ -80,11 +80,6 @@ PairLSMFriction::~PairLSMFriction()
   modify->delete_fix(fix_history ? "NEIGH_HISTORY_LSM" : "NEIGH_HISTORY_LSM_DUMMY");
 }
 
-bool PairLSMFriction::is_left_out(int place) const
-{
-  return near.is_left_out(place);
-}
-
 double PairLSMFriction::drag(const LSMContacts::Pair &pair, double r, double spring, double share)
 {
   double rate;
@@ -114,15 +109,12 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
   const Step step = {update->setupflag != 0, rounding(domain), update->dt * time_ratio,
                      locate_onset != 0};
   const LSMFriction::Scene scene = {
-      near, *this,        *this, atom->x[0], atom->f[0], atom->nlocal,  newton_pair != 0,
-      step, near_reach(), k,     &table[0],  screened,   has_dashpots()};
+      near, *this,        *this, atom->x[0], atom->f[0],    atom->nlocal, newton_pair != 0,
+      step, near_reach(), k,     &table[0],  has_dashpots()};
   if (domain->dimension == 3)
     LSMFriction::Loop<Law, Recorder, 3>(scene).run();
   else
     LSMFriction::Loop<Law, Recorder, 2>(scene).run();
-  near.states_changed();
-  fix_history->contacts_changed();
-  if (screened) near.write_states();    // only here it is known which pairs are left out
 }
 
 void PairLSMFriction::compute(int eflag, int vflag)
@@ -137,7 +129,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
   };
   ev_init(eflag, vflag);
   if (screened) check_special();
-  near.update(*list, contact_radii());
+  near.update(*list, contact_radii(), fix_history);
   constexpr int groups = 8 * sizeof(int);
   if (std::count(group->dynamic, group->dynamic + groups, 1)) near.find_sides();
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
@@ -145,8 +137,6 @@ void PairLSMFriction::compute(int eflag, int vflag)
 
 void PairLSMFriction::load_contacts(const int *faces, const double *shear, const double *shear_z)
 {
-  near.write_states();
-  near.forget();
   double **x = atom->x;
   const double *radius = contact_radii();
   const int dimension = domain->dimension;
@@ -279,13 +269,14 @@ void PairLSMFriction::init_style()
                                         table.law->state_size ? table.law->name : ""),
                             1));
     fix_history->pair = this;
+    fix_history->near = &near;
   } else {
     fix_history = dynamic_cast<FixLSMHistory *>(modify->get_fix_by_id(id_history));
     if (!fix_history)
       error->all(FLERR, Error::NOLASTLINE,
                  "Could not find the contact history of pair lsm/friction");
   }
-  near.keep_states(*fix_history, size_history(), near_reach());
+  near.keep_states(size_history(), near_reach());
 }
 
 // the history of a pair is found by the IDs of its particles
@@ -366,20 +357,15 @@ double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, d
   if (fforce == 0.0 || is_for_table() || !list || list->inum == 0 || type[i] != itype ||
       type[j] != jtype)
     return energy;
-  near.write_states();
+  const int place = near.place_of(i, j);
+  if (place < 0 || !near.is_touching(place)) return energy;
 
   const double kt = table[0][MIN(itype, jtype)][MAX(itype, jtype)];
-  const int *jlist = list->firstneigh[i];
-  for (int jj = 0; jj < list->numneigh[i]; jj++)
-    if ((jlist[jj] & NEIGHMASK) == j) {
-      const double *const h = &fix_history->firstvalue[i][size_history() * jj];
-      svector[0] = single_extra > 2 ? MathExtra::len3(h) : h[Kept<2>::XI];
-      svector[1] = -kt * svector[0];
-      for (int n = 2; n < single_extra; n++) svector[n] = -kt * h[n - 2];
-      energy += LSM::Spring::energy(kt, svector[0]);
-      break;
-    }
-  return energy;
+  const double *const h = near.state(place);
+  svector[0] = single_extra > 2 ? MathExtra::len3(h) : h[Kept<2>::XI];
+  svector[1] = -kt * svector[0];
+  for (int n = 2; n < single_extra; n++) svector[n] = -kt * h[n - 2];
+  return energy + LSM::Spring::energy(kt, svector[0]);
 }
 
 void *PairLSMFriction::extract(const char *str, int &dim)

@@ -37,9 +37,6 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   /// particle of this rank; starts those that are not there yet. To be called before forces are
   /// evaluated in a setup.
   void load_contacts(const int *faces, const double *shear, const double *shear_z);
-  /// Writes the contacts of the last evaluation into the history. To be called before the history
-  /// is read.
-  void note_contacts() { near.write_states(); }
 
  protected:
   void allocate() override;
@@ -58,7 +55,6 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   class FixDummy *fix_dummy = nullptr;
   class FixLSMHistory *fix_history = nullptr;
 
-  bool is_left_out(int place) const override;
   double drag(const LSMContacts::Pair &, double r, double spring, double share) override;
   void tally(const LSMContacts::Pair &, double energy, const LSM::friction_contact::Vector &force,
              const LSM::friction_contact::Vector &del) override;

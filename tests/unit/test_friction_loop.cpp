@@ -21,9 +21,8 @@ using LSMFriction::Scene;
 
 constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 
-/// Nothing is left out. Counts the calls.
+/// Counts the calls.
 struct Host : LSMFriction::Host {
-  bool is_left_out(int) const override { return false; }
   double drag(const LSMContacts::Pair &, double, double, double) override { return 0.0; }
   void tally(const LSMContacts::Pair &, double energy, const Vector &force,
              const Vector &del) override {
@@ -58,7 +57,7 @@ struct Rows {
     for (int i = 0; i < each; ++i)
       for (int j = each; j < 2 * each; ++j)
         if (std::abs(i - (j - each)) < 6)
-          contacts.add({i, j, 0, k.place(1, 1), 0, radius[i] + radius[j],
+          contacts.add({i, j, k.place(1, 1), 0, radius[i] + radius[j],
                         LSM::contact_size(radius[i], radius[j])},
                        false);
     move_to(0);
@@ -76,7 +75,7 @@ struct Rows {
     }
   }
   template <class Law, class Recorder = LSMRecordEnergies>
-  void evaluate(bool one_by_one = false, bool setup = false) {
+  void evaluate(bool setup = false) {
     std::fill(f.begin(), f.end(), 0.0);
     std::vector<double> in_space(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -94,7 +93,6 @@ struct Rows {
                          LSM::friction_contact::NEAR_REACH,
                          k,
                          coefficients,
-                         one_by_one,
                          false};
     if (dim == 2) return Loop<Law, Recorder, 2>(scene).run();
     Loop<Law, Recorder, 3>(scene).run();
@@ -194,15 +192,15 @@ TEST(FrictionLoop, IsThatOfASlowSecondImplementation) {
   for (const int count : {slow.began, slow.ended, slow.slid, slow.stuck}) EXPECT_GT(count, 250);
 }
 
-/// Contacts are computed side by side, or one by one where the scene is screened: to the last bit,
-/// forces, states and sums are the same.
+/// Contacts are computed side by side, or one by one where LAMMPS' own sums are tallied: to the
+/// last bit, forces, states and sums are the same.
 template <class Law>
 void side_by_side(const std::vector<double> &values) {
   Rows together = rows_of<Law>(values), one_by_one = rows_of<Law>(values);
   for (int n = 0; n < 1500; ++n) {
     for (Rows *rows : {&together, &one_by_one}) {
       rows->move_to(n);
-      rows->evaluate<Law>(rows == &one_by_one);
+      rows == &together ? rows->evaluate<Law>() : rows->evaluate<Law, LSMRecordAndTally>();
     }
     ASSERT_EQ(together.f, one_by_one.f) << "step " << n;
     ASSERT_EQ(together.energies.work_friction, one_by_one.energies.work_friction) << "step " << n;
@@ -231,7 +229,7 @@ TEST(FrictionLoop, ASetupChangesNothing) {
       f = rows.f;
       lost = rows.energies.work_friction;
       if (!again) continue;
-      rows.evaluate<LSM::CoulombStatic>(false, true);
+      rows.evaluate<LSM::CoulombStatic>(true);
       EXPECT_EQ(rows.f, f);
       EXPECT_EQ(rows.energies.work_friction, lost);
     }
@@ -282,7 +280,7 @@ void embedded(const std::vector<double> &values) {
     for (int n = 0; n < 1500; ++n) {
       for (Rows *rows : {&plane, &space}) {
         rows->move_to(n);
-        rows->evaluate<Law>(false, n == 700);
+        rows->evaluate<Law>(n == 700);
       }
       for (std::size_t i = 0; i < plane.f.size(); ++i) {
         most = std::max(most, std::fabs(plane.f[i]));

@@ -17,7 +17,6 @@ class LSMContacts {
  public:
   struct Pair {
     int i, j;       ///< particles
-    int jj;         ///< index of j among the neighbors of i
     int types;      ///< place of the coefficients of their types
     int across;     ///< see LSMEnergySource::across_fault()
     double r0;      ///< sum of the radii

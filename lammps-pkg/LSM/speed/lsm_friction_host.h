@@ -16,8 +16,6 @@ namespace LSMFriction {
    public:
     virtual ~Host() noexcept(false) {}    // as LAMMPS' own base classes
 
-    /// Whether a pair must not interact. Called only if the scene is screened.
-    virtual bool is_left_out(int place) const = 0;
     /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
     /// this rank's share of its power. Called only if the scene is viscous.
     virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;

@@ -32,7 +32,6 @@ namespace LSMFriction {
                                       ///< contact have a state
     const LSMTypePairs<double> &k;    ///< normal stiffness
     const LSMTypePairs<double> *coefficients;    ///< by parameter of the law
-    bool screened;                               ///< there are pairs that must not interact
     bool viscous;                                ///< contacts have dashpots
   };
 
@@ -47,7 +46,7 @@ namespace LSMFriction {
         scene(of), contacts(of.contacts), states(of.contacts.state(0)), x(of.x), f(of.f),
         nlocal(of.nlocal), reach_sq(of.reach * of.reach), step(of.step),
         side_by_side(DIM == 2 && Law::state_size == 0 && !Recorder::tallies && !step.setup &&
-                     !of.screened && !of.viscous),
+                     !of.viscous),
         recorder(of.energies, step.setup)
     {
     }
@@ -228,10 +227,6 @@ namespace LSMFriction {
       const Geometry g(d);
       const bool apart = g.rsq >= r0 * r0;
       if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
-      if (scene.screened && scene.host.is_left_out(place)) {
-        touch = false;
-        return;
-      }
       if (apart && (!touch || h[Is::STATUS] == friction::NEAR)) {
         friction::keep_near<DIM>(g.rsq <= reach_sq * r0 * r0, d, touch, h);
         return;

@@ -34,24 +34,22 @@ void LSMNearPairs::init(const LSMTypePairs<int> &active_types, bool screens,
   active = &active_types;
   screened = screens;
   sides = &source;
-  written = true;    // the states were written at the end of the previous run
+  changed = false;    // the states were written at the end of the previous run
 }
 
-void LSMNearPairs::keep_states(LSMContactStore &where, int size, double reach)
+void LSMNearPairs::keep_states(int size, double reach)
 {
-  store = &where;
-  stored_size = size;
+  size_of_states = size;
   state_reach = reach;
 }
 
-void LSMNearPairs::update(NeighList &of, const double *radii)
+void LSMNearPairs::update(NeighList &of, const double *radii, LSMContactStore *store)
 {
   list = &of;
   radius = radii;
   if (lmp_->update->setupflag) forget();    // the number of a build may have been used before
   const double *const x = lmp_->atom->x[0];
   const Due what = due(x);
-  const bool anew = what == Due::new_list || what == Due::choice;
 
   if (what == Due::new_list) {
     screened ? patch.stop() : patch.start(of, *active);
@@ -62,18 +60,16 @@ void LSMNearPairs::update(NeighList &of, const double *radii)
                                             : patch.look_at(strays);
     for (const LSMListPatch::Added &pair : added) {
       if (store) store->add_pair(pair.i, pair.jj);
-      listed.push_back({pair.i, pair.jj, pair.j});
-      is_kept.push_back(0);
-      keep(static_cast<int>(listed.size()) - 1, false);
+      listed.push_back({pair.i, pair.jj, pair.j, -1});
+      keep(static_cast<int>(listed.size()) - 1);
     }
   }
-  if (anew) {
-    write_states();
-    choose(x);
-  } else if (what == Due::strays)
+  if (what == Due::new_list || what == Due::choice)
+    choose(x, what == Due::new_list, store);
+  else if (what == Due::strays)
     keep_pairs_of_strays();
   find(x);
-  read_states();
+  changed = true;
 }
 
 // the largest distance of the particles in [first, last) from the positions x_chosen
@@ -120,7 +116,7 @@ LSMNearPairs::Due LSMNearPairs::due(const double *x)
     for (int ii = 0; ii < list->inum; ii++) {
       const int i = list->ilist[ii];
       for (int jj = 0; jj < list->numneigh[i]; jj++)
-        listed.push_back({i, jj, list->firstneigh[i][jj] & NEIGHMASK});
+        listed.push_back({i, jj, list->firstneigh[i][jj] & NEIGHMASK, -1});
     }
     moved.resize(moves.size());
     x_chosen.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(all) : 0);
@@ -167,14 +163,17 @@ void LSMNearPairs::index_listed()
   }
 }
 
-void LSMNearPairs::keep(int n, bool touching)
+// A pair with a state that does not touch is found by its distance.
+void LSMNearPairs::keep(int n, const double *state_before)
 {
-  const auto &[i, jj, j] = listed[n];
-  const int *const type = lmp_->atom->type;
-  is_kept[n] = 1;
-  LSMContacts::add({i, j, jj, active->place(type[i], type[j]), side_of(i, j), radius[i] + radius[j],
+  Listed &pair = listed[n];
+  if (screened && is_left_out(pair)) return;
+  const int i = pair.i, j = pair.j, *const type = lmp_->atom->type;
+  pair.place = count();
+  LSMContacts::add({i, j, active->place(type[i], type[j]), side_of(i, j), radius[i] + radius[j],
                     LSM::contact_size(radius[i], radius[j])},
-                   touching);
+                   state_before && state_before[status()] != NEAR);
+  if (state_before) std::copy_n(state_before, state_size, state(pair.place));
 }
 
 int LSMNearPairs::side_of(int i, int j) const
@@ -193,81 +192,92 @@ void LSMNearPairs::keep_pairs_of_strays()
   for (; admitted < strays.size(); admitted++) {
     const int i = strays[admitted];
     for (int n = first_of[i]; n < first_of[i + 1]; n++)
-      if (!is_kept[pairs_of[n]]) keep(pairs_of[n], false);
+      if (listed[pairs_of[n]].place < 0) keep(pairs_of[n]);
     for (size_t n = pairs_of.size() / 2; n < listed.size(); n++)    // added since
-      if (!is_kept[n] && (listed[n].i == i || listed[n].j == i)) keep(static_cast<int>(n), false);
+      if (listed[n].place < 0 && (listed[n].i == i || listed[n].j == i)) keep(static_cast<int>(n));
   }
 }
 
-// Whether a pair is near is unpredictable for the processor, so the loop has no branches.
-void LSMNearPairs::choose(const double *x)
+// Whether a pair is near is unpredictable for the processor, so the loop has no branches. States
+// are taken from the store for a new list, and from the pairs kept so far otherwise.
+void LSMNearPairs::choose(const double *x, bool new_list, LSMContactStore *store)
 {
   std::copy_n(x, x_chosen.size(), x_chosen.begin());
   std::fill(moved.begin(), moved.end(), 0.0);
   strays.clear();
   admitted = 0;
-  is_kept.assign(listed.size(), 0);
   chosen.resize(listed.size());
   const bool all = x_chosen.empty();
   const double reach = std::max(state_reach, 1.0);
   int most = 0;
   for (int n = 0; n < static_cast<int>(listed.size()); n++) {
-    const Listed &pair = listed[n];
+    Listed &pair = listed[n];
     const double *const a = x + 3 * static_cast<size_t>(pair.i);
     const double *const b = x + 3 * static_cast<size_t>(pair.j);
     const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
     const double far = reach * (radius[pair.i] + radius[pair.j]) + SKIN;
-    const bool touching = store && *store->touch_of(pair.i, pair.jj);
-    chosen[most] = n;    // overwritten by the next one unless the number advances
-    most += all | touching | !(dx * dx + dy * dy + dz * dz > far * far);
+    const bool has_state = new_list ? store && *store->touch_of(pair.i, pair.jj)
+                                    : pair.place >= 0 && settle(pair.place);
+    // overwritten by the next one unless the number advances
+    chosen[most] = {n, std::exchange(pair.place, -1), has_state};
+    most += all | has_state | !(dx * dx + dy * dy + dz * dz > far * far);
   }
 
-  begin(stored_size, lmp_->domain->dimension);
-  known_states = 0;
+  std::vector<double> before;
+  before.swap(states);
+  begin(size_of_states, lmp_->domain->dimension);
+  places.clear();
   for (int m = 0; m < most; m++) {
-    const Listed &pair = listed[chosen[m]];
-    keep(chosen[m], store && *store->touch_of(pair.i, pair.jj));
+    const auto &[n, place, has_state] = chosen[m];
+    keep(n,
+         !has_state     ? nullptr
+             : new_list ? store->values_of(listed[n].i, listed[n].jj)
+                        : &before[static_cast<size_t>(place) * state_size]);
   }
 }
 
-// A pair with a state that does not touch is found by its distance from now on.
-void LSMNearPairs::read_states()
+int LSMNearPairs::status() const
 {
-  if (!store) return;
-  states_build = build_number;
-  const int status = dim == 3 ? Kept<3>::STATUS : Kept<2>::STATUS;
-  for (; known_states < count(); known_states++) {
-    const Pair &pair = pairs[known_states];
-    double *const h = state(known_states);
-    std::copy_n(store->values_of(pair.i, pair.jj), state_size, h);
-    if (h[status] == NEAR) set_touching(known_states, false);
+  return dim == 3 ? Kept<3>::STATUS : Kept<2>::STATUS;
+}
+
+// Completes the state of a pair that does not touch: whether it is near follows from its vector
+// alone, which a pair has that was there in the step before. Returns whether there is a state.
+bool LSMNearPairs::settle(int place)
+{
+  if (state_size == 0 || place >= at_last_find) return false;
+  if (is_touching(place)) return true;
+  const double *const d = vector(place), far = state_reach * pairs[place].r0;
+  const double square = dim == 3 ? square_of<3>(d) : square_of<2>(d);
+  bool is_near = square <= far * far;
+  double *const h = state(place);
+  dim == 3 ? keep_near<3>(is_near, d, is_near, h) : keep_near<2>(is_near, d, is_near, h);
+  return is_near;
+}
+
+void LSMNearPairs::write_states(LSMContactStore &store)
+{
+  if (!changed || build_number != lmp_->neighbor->ncalls) return;
+  changed = false;
+  for (const Listed &pair : listed) {
+    const bool has_state = pair.place >= 0 && settle(pair.place);
+    *store.touch_of(pair.i, pair.jj) = has_state;
+    if (has_state) std::copy_n(state(pair.place), state_size, store.values_of(pair.i, pair.jj));
   }
 }
 
-// Pairs that do not touch have no state: whether one is near follows from its vector alone.
-void LSMNearPairs::write_states()
+int LSMNearPairs::place_of(int i, int j)
 {
-  if (written || states_build != lmp_->neighbor->ncalls) return;
-  written = true;
-  for (int place = 0; place < known_states; place++) {
-    const Pair &pair = pairs[place];
-    double *const h = state(place);
-    bool touch = is_touching(place);
-    if (!touch) {
-      const double *const d = vector(place);
-      const double square = dim == 3 ? square_of<3>(d) : square_of<2>(d);
-      const bool is_near = square <= state_reach * state_reach * pair.r0 * pair.r0 &&
-          !(screened && is_left_out(place));
-      dim == 3 ? keep_near<3>(is_near, d, touch, h) : keep_near<2>(is_near, d, touch, h);
-    }
-    std::copy_n(h, state_size, store->values_of(pair.i, pair.jj));
-    *store->touch_of(pair.i, pair.jj) = touch;
+  while (static_cast<int>(places.size()) < count()) {
+    const int place = static_cast<int>(places.size());
+    places[{pairs[place].i, pairs[place].j}] = place;
   }
+  const auto found = places.find({i, j});
+  return found == places.end() ? -1 : found->second;
 }
 
-bool LSMNearPairs::is_left_out(int place) const
+bool LSMNearPairs::is_left_out(const Listed &pair) const
 {
-  const Pair &pair = pairs[place];
   const int *const type = lmp_->atom->type;
   const int entry = list->firstneigh[pair.i][pair.jj];
   return !(*active)[type[pair.i]][type[pair.j]] ||

@@ -10,6 +10,8 @@
 #include "lsm_travel.h"
 #include "lsm_type_pairs.h"
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -29,8 +31,8 @@ class LSMContactStore {
 
 /// Most pairs in the neighbor list of a dense block never touch. This class keeps the pairs that
 /// may come near before particles have moved by a small skin against each other, and in each step
-/// finds those of them that touch. No pair is missed. It also holds the states of contacts, from
-/// when a pair is chosen until others are.
+/// finds those of them that touch. No pair is missed. It is also the one home of the states of
+/// contacts while a list is in use; the store has them from one list to the next.
 class LSMNearPairs : public LSMContacts {
  public:
   explicit LSMNearPairs(LAMMPS *lmp) : lmp_(lmp), patch(lmp), travel(lmp) {}
@@ -45,25 +47,29 @@ class LSMNearPairs : public LSMContacts {
   void init(const LSMTypePairs<int> &active, bool screened, const LSMEnergySource &sides);
   /// The same for contacts that have a state, see friction_contact.h.
   /// \param reach      up to this distance, in sums of radii, pairs without contact have one, too
-  void keep_states(LSMContactStore &, int state_size, double reach);
+  void keep_states(int state_size, double reach);
   /// Brings everything to this step. To be called once in each, before forces are evaluated.
-  void update(NeighList &, const double *radius);
-  /// The states of this step have been evaluated.
-  void states_changed() { written = false; }
-  /// Writes states into the store, if they have changed. To be called before it is read.
-  void write_states();
-  /// Forgets all, for a list of another kind, or because the store has changed.
-  void forget() { build_number = -1; }
+  /// \param store  what a new list begins with, null for contacts without a state
+  void update(NeighList &, const double *radius, LSMContactStore *store);
+  /// Whether states were evaluated that are not written.
+  bool has_changed() const { return changed; }
+  /// Writes the states, if they have changed, of all pairs of the list.
+  void write_states(LSMContactStore &);
   bool is_empty() const { return build_number < 0; }
   /// Finds again which pairs are across the fault, for groups that change.
   void find_sides();
-  /// Whether a pair must not interact, for lists that hold such pairs.
-  bool is_left_out(int place) const;
+  /// The place of the pair of two particles, in this order, -1 if it is not kept.
+  int place_of(int i, int j);
 
  private:
   enum class Due { nothing, strays, choice, new_list };    // see due()
   struct Listed {
     int i, jj, j;
+    int place;    // -1 if it is not kept
+  };
+  struct Chosen {
+    int n, place_before;
+    bool has_state;
   };
 
   LAMMPS *const lmp_;
@@ -75,15 +81,11 @@ class LSMNearPairs : public LSMContacts {
   NeighList *list = nullptr;
   const double *radius = nullptr;
 
-  LSMContactStore *store = nullptr;
-  int stored_size = 0;         // of a state
+  int size_of_states = 0;
   double state_reach = 0.0;    // in sums of radii
-  bool written = true;         // the store is up to date
-  bigint states_build = -1;    // number of the build of the list that the states belong to
-  int known_states = 0;        // pairs whose states were read
+  bool changed = false;        // since the last list or write_states()
 
   std::vector<Listed> listed;      // the whole neighbor list, and behind it what was added since
-  std::vector<char> is_kept;       // of each listed pair
   bigint build_number = -1;        // number of the build of the list
   std::vector<double> x_chosen;    // positions when the pairs were chosen, those of strays later
                                    // ones; empty where all pairs are kept
@@ -93,17 +95,21 @@ class LSMNearPairs : public LSMContacts {
   std::vector<int> strays;
   size_t admitted = 0;                    // strays all of whose pairs are kept
   std::vector<int> first_of, pairs_of;    // listed pairs of each particle, once there are strays
-  std::vector<int> chosen;                // of no use outside of choose()
+  std::vector<Chosen> chosen;             // of no use outside of choose()
+  std::map<std::pair<int, int>, int> places;    // see place_of()
 
+  void forget() { build_number = -1; }
   Due due(const double *x);
-  void choose(const double *x);
-  void read_states();
+  void choose(const double *x, bool new_list, LSMContactStore *);
+  int status() const;
+  bool settle(int place);
   void keep_pairs_of_strays();
   double displacement(const double *x, size_t first, size_t last) const;
   void hold_strays(const double *x);
   bool find_strays(const double *x, size_t first, size_t last);
   void index_listed();
-  void keep(int n, bool touching);
+  bool is_left_out(const Listed &) const;
+  void keep(int n, const double *state = nullptr);
   int side_of(int i, int j) const;
 };
 
