@@ -18,10 +18,9 @@
 using namespace LAMMPS_NS;
 
 LSMRunGuard::LSMRunGuard(LAMMPS *_lmp, const LSMEventSources &_sources,
-                         const LSM::WatchdogSettings &settings, const std::string &file,
-                         std::function<void()> _flush) :
+                         const LSM::WatchdogSettings &settings, const std::string &file) :
     Pointers(_lmp),
-    sources(_sources), watchdog(settings), emergency_file(file), flush(std::move(_flush))
+    sources(_sources), watchdog(settings), emergency_file(file)
 {
 }
 
@@ -35,42 +34,37 @@ void LSMRunGuard::begin_run()
 
 // In the middle of a step there is no energy to check and no state for a restart file, so other
 // checks wait until the step is complete.
-void LSMRunGuard::check_links()
+LSM::Watchdog::Alarm LSMRunGuard::check_links()
 {
-  if (!sources.has_links()) return;
+  if (!sources.has_links()) return {};
   const double strain = lsm_largest(LSM::Watchdog::comparable(sources.max_strain()), world);
-  const std::string what = watchdog.check_links(strain, widest, comm->get_comm_cutoff());
-  if (what.empty()) return;
-  flush();
-  stop_run(what, "The catalogue ends with the last event before it");
+  return {watchdog.check_links(strain, widest, comm->get_comm_cutoff()), false};
 }
 
-void LSMRunGuard::check_step(const LSM::EnergyLedger &ledger,
-                             const std::function<LSM::EnergyTerms()> &energies)
+LSM::Watchdog::Alarm LSMRunGuard::check_step(const LSM::EnergyLedger &ledger,
+                                             const std::function<LSM::EnergyTerms()> &energies)
 {
   const double mine[2] = {std::isfinite(sources.pe()) ? 0.0 : 1.0,
                           LSM::Watchdog::comparable(sources.max_strain())};
   double all[2];
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  const auto alarm = watchdog.check(all[0] == 0.0, all[1], ledger, [&] {
+  return watchdog.check(all[0] == 0.0, all[1], ledger, [&] {
     LSMMover::complete_steps(modify);
     return energies();
   });
-  if (alarm.what.empty()) return;
-
-  // a restart file of such a state would be useless, and would replace an older one
-  flush();
-  if (!alarm.finite) stop_run(alarm.what, "The catalogue ends with the last event before it");
-
-  LSMMover::complete_steps(modify);
-  LSMScript::save_restart(lmp, emergency_file, LSMScript::listed(lmp, LSMScript::SAVED), true);
-  stop_run(alarm.what, "Wrote restart file " + emergency_file);
 }
 
-void LSMRunGuard::stop_run(const std::string &what, const std::string &left)
+// a restart file of a state that is not finite would be useless, and would replace an older one
+void LSMRunGuard::stop_run(const LSM::Watchdog::Alarm &alarm)
 {
+  if (alarm.finite) {
+    LSMMover::complete_steps(modify);
+    LSMScript::save_restart(lmp, emergency_file, LSMScript::listed(lmp, LSMScript::SAVED), true);
+  }
   error->all(FLERR, Error::NOLASTLINE,
              "Run stopped at step {}: {}. {}; use a smaller time step or start from an earlier "
              "restart",
-             update->ntimestep, what, left);
+             update->ntimestep, alarm.what,
+             alarm.finite ? "Wrote restart file " + emergency_file
+                          : "The catalogue ends with the last event before it");
 }

@@ -119,6 +119,16 @@ void EventStream::write_rest(bool open_ruptures) {
     finder_->each_open_as_ended([this](const FaultRupture &r) { write_rupture(r); });
 }
 
+Picked EventStream::picked() const {
+  return {static_cast<double>(drops().events),
+          drops().last_size,
+          picker_.rate(),
+          picker_.in_event() ? 1.0 : 0.0,
+          static_cast<double>(ruptures().events),
+          ruptures().last_size,
+          static_cast<double>(open_ruptures())};
+}
+
 void EventStream::change_picker(const PickerSettings &settings, double ratio) {
   settings_.picker = settings;
   picker_.change(settings, ratio);

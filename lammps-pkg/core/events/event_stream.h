@@ -79,6 +79,12 @@ struct SavedStream {
   FaultGrid continued(FaultGrid other) const;
 };
 
+/// What was picked so far: numbers for the screen, all of which are doubles.
+struct Picked {
+  double events = 0.0, last_size = 0.0, rate = 0.0, in_event = 0.0;  ///< drops of PE
+  double ruptures = 0.0, last_work = 0.0, open_ruptures = 0.0;
+};
+
 class EventStream {
  public:
   using TimeOfStep = std::function<double(std::int64_t step)>;
@@ -124,6 +130,7 @@ class EventStream {
   void change_picker(const PickerSettings &settings, double ratio);
   void leave_out_jump(double jump) { picker_.leave_out_jump(jump); }
 
+  Picked picked() const;
   const EventPicker &picker() const { return picker_; }
   /// Counts of drops of PE and of ruptures that are written.
   const FilterCounts &drops() const { return drops_.counts(); }
