@@ -47,8 +47,7 @@ class Outputs {
   /// \param events number of events in the catalogue until then
   void resume(std::int64_t step, std::int64_t events) {
     // No file is truncated before both have been found to belong to this run.
-    if (!o_.catalogue.empty())
-      catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, events);
+    if (!o_.catalogue.empty()) catalogue_.find_cut(o_.catalogue, catalogue_info_, events);
     if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step);
     if (!o_.catalogue.empty()) catalogue_.cut_with_new_header();
     if (!o_.series.empty()) series_.cut_with_new_header();

@@ -44,12 +44,11 @@ inline void spill(const std::string &path, const std::string &text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// Continues a file as a run restarted from last_step does.
+/// Continues a file as a run does that is restarted after this step, for a catalogue this event.
 /// \return number of rows kept
-template <class Writer, class Info, class... Expected>
-std::int64_t resume(Writer &writer, const std::string &path, const Info &info,
-                    std::int64_t last_step, Expected... expected) {
-  writer.find_cut(path, info, last_step, expected...);
+template <class Writer, class Info>
+std::int64_t resume(Writer &writer, const std::string &path, const Info &info, std::int64_t last) {
+  writer.find_cut(path, info, last);
   writer.cut();
   return writer.rows();
 }

@@ -41,9 +41,6 @@ class DropLocator {
   /// \param step, row what is known of that interval: its steps up to `step`
   void finish(std::int64_t step, const FaultRow &row, const Report &report);
 
-  /// Step up to which drops that ended are reported.
-  std::int64_t known_until() const { return end_; }
-
   std::vector<double> state() const;
   /// \throws std::invalid_argument if no such locator can be in that state
   void set_state(const std::vector<double> &saved);

@@ -91,6 +91,7 @@ void EventStream::begin_fault(double pe, const std::vector<double> &sums) {
 }
 
 void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_of) {
+  last_sums_.clear();
   const double *sums = block.intervals.data();
   for (int n = 0; n < block.count; ++n) {
     const std::int64_t step = block.first + n;
@@ -110,10 +111,9 @@ void EventStream::end_run(std::int64_t step, const std::vector<double> &open_sum
 
 void EventStream::write_rest(bool open_ruptures) {
   // After an error within a run the slip of the incomplete interval is not known.
-  const bool known = locator_ && !last_sums_.empty() && last_step_ > locator_->known_until();
-  if (known)
-    locator_->finish(last_step_,
-                     fault_row(grid_, last_sums_.data(), last_step_ - locator_->known_until()),
+  const std::int64_t steps = last_sums_.empty() ? 0 : (last_step_ - grid_.step0) % grid_.interval;
+  if (locator_ && steps > 0)
+    locator_->finish(last_step_, fault_row(grid_, last_sums_.data(), steps),
                      [this](const Drop &drop) { write_drop(drop); });
   if (finder_ && open_ruptures)
     finder_->each_open_as_ended([this](const FaultRupture &r) { write_rupture(r); });
@@ -172,14 +172,9 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
                       ruptures_info = ruptures_header(settings_, scene, grid_);
   const PeSeriesInfo series_info = series_header(settings_, scene, clock);
   history_info_ = history_header(settings_, scene, grid_);
-  // A drop that ended at this step is known one step later, and written with its interval.
-  if (resumes(catalogue))
-    catalogue_.find_cut(catalogue, drops_info,
-                        locator_ ? std::min(step - 1, locator_->known_until()) : step - 1,
-                        drops().events);
+  if (resumes(catalogue)) catalogue_.find_cut(catalogue, drops_info, drops().events);
   if (resumes(ruptures))
-    rupture_catalogue_.find_cut(ruptures, ruptures_info, finder_->known_until(),
-                                this->ruptures().events);
+    rupture_catalogue_.find_cut(ruptures, ruptures_info, this->ruptures().events);
   if (resumes(series)) series_.find_cut(series, series_info, step);
   if (resumes(history)) history_.find_cut(history, history_info_, saved_history_);
 

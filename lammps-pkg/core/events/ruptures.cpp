@@ -117,10 +117,6 @@ void RuptureFinder::each_open_as_ended(const Report &report) const {
   }
 }
 
-std::int64_t RuptureFinder::known_until() const {
-  return grid_.step0 + (sets_.step() - settings_.memory) * grid_.interval;
-}
-
 std::vector<double> RuptureFinder::state() const {
   std::vector<double> out;
   StateWriter to(out);

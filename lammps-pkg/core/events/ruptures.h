@@ -105,8 +105,6 @@ class RuptureFinder {
   /// the slip history gives it a record of its own.
   bool active() const { return active_; }
   FaultMoment last_interval() const { return {sets_.step(), pe_, before_}; }
-  /// Step up to which the ends of ruptures are known: a rupture has ended when its pause is over.
-  std::int64_t known_until() const;
   std::int64_t open() const { return sets_.open(); }
 
   std::vector<double> state() const;

@@ -298,7 +298,7 @@ void CatalogueWriter::create(const std::string &path, const CatalogueInfo &info,
 }
 
 void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &info,
-                               std::int64_t last_step, std::int64_t expected) {
+                               std::int64_t written) {
   check_info(info);
   file_.close();
   CatalogueReader reader(files::open_plain(path));
@@ -312,10 +312,9 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
 
   std::int64_t length = old_header_ = reader.reader_.end();
   start(info);
-  // Events are in order of their ends, so the first one to drop is where the file is cut.
   EventRow event;
-  std::int64_t earlier = 0;  // events before a file that was begun by a continued run
-  while (reader.next(event) && event.step_end <= last_step) {
+  std::int64_t earlier = written;  // events before a file that was begun by a continued run
+  while (reader.next(event) && event.id <= written) {
     if (rows_ == 0) earlier = event.id - 1;
     last_ = event;
     ++rows_;
@@ -323,10 +322,9 @@ void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &inf
   }
   if (reader.reader_.foreign())
     refuse(path, "Windows line ends or a byte order mark, expected the file as the run wrote it");
-  if (rows_ == 0) earlier = std::max<std::int64_t>(expected, 0);  // it may have been
-  if (expected >= 0 && earlier + rows_ != expected)
+  if (earlier + rows_ != written)
     refuse(path, std::to_string(earlier + rows_) + " events up to the checkpoint, expected " +
-                     std::to_string(expected));
+                     std::to_string(written));
   file_.keep(path, length);
 }
 

@@ -152,15 +152,13 @@ class CatalogueWriter : public files::ResumableFile {
   /// \throws std::invalid_argument for a header that could not be read back
   void create(const std::string &path, const CatalogueInfo &info, bool whole = false);
 
-  /// Inspects the catalogue of a run restarted from last_step, which cut() will continue: checks
-  /// that the header is what create() would write, and finds the first event that ended after
-  /// last_step, or a truncated last line.
-  /// \param expected number of events before the cut, if not negative, with those before the first
-  /// one in the file, which may have been begun by a continued run
-  /// \throws FileError naming the first parameter that differs, the first bad line, or the number
-  /// of events.
-  void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
-                std::int64_t expected = -1);
+  /// Inspects the catalogue of a run that continues, which cut() will continue: checks that the
+  /// header is what create() would write, and finds the first event that was written later, or a
+  /// truncated last line.
+  /// \param written number of the last event until then, 0 if there was none; the file may have
+  /// been begun by a continued run, with a later event than the first \throws FileError naming the
+  /// first parameter that differs, the first bad line, or the number of events.
+  void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t written);
 
   /// Appends one line and hands it to the operating system.
   /// \throws FileError if that fails, or if a reader would not accept the event after the previous
