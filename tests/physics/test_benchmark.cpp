@@ -287,16 +287,7 @@ TEST_F(Benchmark, MirroredPackingSlipsAsItsMirrorImage) {
 TEST_F(Benchmark, WrongInputIsNamed) {
   const std::string begin = lattice(created);
   EXPECT_TRUE(
-      failed_with(run_text(lattice(created + " mirror yes")),
-                  {"Unknown create_lsm_fault lattice keyword 'mirror'; accepted are length"}));
-  EXPECT_TRUE(failed_with(run_text(packing("0", "", "mirror maybe")),
-                          {"mirror is 'maybe', but must be yes or no"}));
-  EXPECT_TRUE(
       failed_with(run_text(packing("0", "", "types 5")), {"types is 5, but must be at least 6"}));
-  EXPECT_TRUE(failed_with(run_text(packing("0", "share area")),
-                          {"share is 'area', but must be diameter or spacing"}));
-  EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")),
-                          {"Unknown fix lsm/traction keyword 'area'; accepted are share"}));
   // Refused are blocks with a gap between them, discs near the line that do not touch it, and
   // blocks that are not mirror images.
   EXPECT_TRUE(
@@ -309,8 +300,6 @@ TEST_F(Benchmark, WrongInputIsNamed) {
   EXPECT_TRUE(
       failed_with(run_text(packing("0") + "displace_atoms upper move 0.001 0 0 units box\nrun 0\n"),
                   {"share spacing", "at the same x"}));
-  EXPECT_TRUE(failed_with(run_text(lattice("create_lsm_fault lattice length 41 width 16")),
-                          {"lattice spacing is missing; needed are length, width and spacing"}));
   EXPECT_TRUE(failed_with(run_text(begin + "neighbor 1e-4 bin\nrun 0\n"),
                           {"would overlap its partner", "give a larger skin"}));
   EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"keyword 'seed'"}));

@@ -479,12 +479,6 @@ TEST_F(Leap, Refusals) {
                {"fix leap all lsm/leap move\n", "'move' is not the ID of a fix lsm/plates"},
                {"fix leap all lsm/leap plates fast 0.0001\n",
                 "fast is 0.0001, but must be at least the driving velocity 0.0005"},
-               {"fix leap all lsm/leap plates slip 0\n", "slip is 0, but must be > 0"},
-               {"fix leap all lsm/leap plates calm -1\n", "calm is -1, but must be >= 0"},
-               {"fix leap all lsm/leap plates speed 1\n",
-                "Unknown fix lsm/leap keyword 'speed'; accepted are fast"},
-               {"fix leap all lsm/leap plates fast\n",
-                "fix lsm/leap fast (a value) command: missing argument"},
                {"fix leap all lsm/leap plates fast 0.01\nfix more all lsm/leap plates fast 0.01\n",
                 "More than one fix lsm/leap"}};
   for (const auto &one : cases)

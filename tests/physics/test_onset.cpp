@@ -87,7 +87,3 @@ TEST_F(Onset, AListWithoutSkinIsWarnedOf) {
   EXPECT_EQ(bounce("located", 0.16, 0.1, 1, "0.0").value("vy"),
             bounce("step", 0.16, 0.1, 1, "0.3").value("vy"));
 }
-
-TEST_F(Onset, UnknownWordIsRefused) {
-  EXPECT_TRUE(failed_with(bounce("late", 0.1, 0.1), {"onset", "late", "located"}));
-}

@@ -438,13 +438,8 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
 TEST_F(Ruptures, OneLineOfError) {
   const auto with = [](const std::string &compute) { return upper_and_lower(compute) + "run 0\n"; };
   for (const auto &[compute, parts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"events ruptures", {"keyword 'events'", "ruptures, history, slipping"}},
            {"gap 2", {"keyword gap needs ruptures or history"}},
            {"location yes unfinished yes", {"keyword unfinished needs ruptures or history"}},
-           {"ruptures r.csv gap 1.5", {"gap is 1.5, but must be a whole number of at least 0"}},
-           {"ruptures r.csv pause -1", {"pause is -1, but must be >= 0"}},
-           {"ruptures r.csv interval 0",
-            {"interval is 0, but must be a whole number of at least 1"}},
            {"ruptures r.csv modulus 0.4", {"needs fix lsm/plates, or the keyword driving"}},
            {"ruptures r.csv driving 0.001",
             {"needs bond style lsm/linked, or the keyword modulus"}},

@@ -416,11 +416,6 @@ TEST_F(Viscosity, WrongInputIsNamed) {
     return run_text(script, {{"dt", "0.02"}, {"end", "0.2"}, {"retardation", words}});
   };
   EXPECT_TRUE(failed_with(with("kelvin-voigt -1"), {"kelvin-voigt is -1", ">= 0"}));
-  EXPECT_TRUE(
-      failed_with(with("kelvin-voigt"), {"kelvin-voigt (a value) command: missing argument"}));
-  EXPECT_TRUE(failed_with(with("kelvin-voigt 1 1.5"),
-                          {"lsm/linked keyword '1.5'; accepted are kelvin-voigt"}));
-  EXPECT_TRUE(failed_with(with("kelvin-voigt x"), {"kelvin-voigt is x, but must be a number"}));
   EXPECT_TRUE(failed_with(with("kelvin-voigt 0.1", "fix move all nve\nvariable x index 0"),
                           {"kelvin-voigt need fix lsm/nve"}));
   EXPECT_TRUE(
