@@ -63,7 +63,7 @@ class Slurm:
             CONFIGURATION.format(host=socket.gethostname().split(".")[0], controller=20000 + port, node=30000 + port, folder=folder,
                                  cpus=os.cpu_count()))
         os.environ["SLURM_CONF"] = str(configuration)
-        self.begin("munged", "--overwrite", f"--socket={folder}/munge/socket", f"--key-file={key}", f"--pid-file={folder}/munge.pid",
+        self.begin("munged", "--force", f"--socket={folder}/munge/socket", f"--key-file={key}", f"--pid-file={folder}/munge.pid",
                    f"--log-file={folder}/munge/log", f"--seed-file={folder}/munge/seed")
         self.begin("slurmctld")
         self.begin("slurmd")
