@@ -10,6 +10,7 @@ import traceback
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # of recipes, which may change more than once in a second
 PARTS = ("reference", "numbers", "comparisons", "table", "costs", "means", "differences", "stacks", "figures", "pages", "drawings")
 
 
