@@ -180,7 +180,6 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         {"faultzone", &settings.fault_zone},
         {"loose", Words{&removed, {"keep", "remove"}}},
         {"mirror", &settings.mirror},
-        {"massfloor", &mass_floor, Must::not_negative},
         {"massstep", &step, Must::not_negative, &step_kt},
         {"stiffness", &stiffness, Must::positive}},
        {"length", "width", "seed"});
@@ -291,7 +290,7 @@ std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing, doubl
   for (const auto &disc : packing.discs) {
     // a disc in a straight border of a lattice represents half the area of the others
     const double part = lattice && (disc.fault || disc.plate) ? 0.5 : 1.0;
-    masses.push_back(part * std::max(mass_of(disc.r), mass_floor));
+    masses.push_back(part * mass_of(disc.r));
   }
   if (step > 0.0) {
     const auto enough = LSM::masses_for_step(packing, length, step, stiffness, step_kt);
@@ -467,11 +466,7 @@ static constexpr double MUCH_MASS = 20.0;
 
 void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vector<double> &masses)
 {
-  std::vector<std::string> raised_by;
-  if (mass_floor > 0.0) raised_by.push_back(fmt::format("mass floor {:g}", mass_floor));
-  if (step > 0.0) raised_by.push_back(fmt::format("time step {:g} stable with any contacts", step));
-  if (raised_by.empty()) return;
-
+  if (step <= 0.0) return;
   double sum = 0.0, raised = 0.0;
   bigint count = 0;
   for (std::size_t i = 0; i < masses.size(); i++) {
@@ -482,7 +477,7 @@ void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vecto
       ++count;
     }
   }
-  const std::string by = utils::join_words(raised_by, ", ");
+  const std::string by = fmt::format("time step {:g} stable with any contacts", step);
   const double percent = 100.0 * raised / sum;
   utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n", by, count, percent);
   if (percent > MUCH_MASS && comm->me == 0)

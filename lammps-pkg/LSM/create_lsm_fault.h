@@ -32,15 +32,14 @@ class CreateLSMFault : public Command {
  private:
   int cubed = 0;    // mass = mass_scale * radius^2, or ^3
   double mass_scale = 1.0;
-  double mass_floor = 0.0;    // smaller masses are raised to this
-  double step = 0.0;          // time step for which masses are raised until it is stable; 0: none
-  double step_kt = 0.0;       // tangential stiffness of contacts, for step
-  double margin = 2.0;        // empty space beyond each plate
-  double stiffness = 1.0;     // of links and contacts, for step
-  bool lattice = false;       // mirrored rows of equal discs, not a random packing
-  bool cubic = false;         // in three dimensions
-  double diameter = 0.0;      // of the nodes of a cubic lattice
-  int types;                  // number of atom types
+  double step = 0.0;         // time step for which masses are raised until it is stable; 0: none
+  double step_kt = 0.0;      // tangential stiffness of contacts, for step
+  double margin = 2.0;       // empty space beyond each plate
+  double stiffness = 1.0;    // of links and contacts, for step
+  bool lattice = false;      // mirrored rows of equal discs, not a random packing
+  bool cubic = false;        // in three dimensions
+  double diameter = 0.0;     // of the nodes of a cubic lattice
+  int types;                 // number of atom types
 
   void check_setup();
   void check_box_and_dimension();

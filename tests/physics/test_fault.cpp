@@ -16,7 +16,7 @@ using Ledger = Fault;
 using Restart = Fault;
 using Events = Fault;
 using Ranks = Fault;
-using MassFloor = Fault;
+using MassStep = Fault;
 
 template <class Kind>
 static void expect_same_events(const std::vector<Kind> &a, const std::vector<Kind> &b,
@@ -489,7 +489,7 @@ run 3000
   EXPECT_NEAR(two.last("f_plates[9]"), close.last("f_plates[9]"), 1e-9);
 }
 
-TEST_F(MassFloor, MassesForAStepMakeItStableWithContacts) {
+TEST_F(MassStep, IsStableWithContacts) {
   // The upper block is pressed into the lower one: there are many contacts at once, equally stiff
   // in both directions.
   const std::string script = fault_start() +
@@ -515,36 +515,4 @@ run 0
   ASSERT_TRUE(succeeded(two));
   EXPECT_NEAR(two.last("f_move[2]"), raised.last("f_move[2]"), 1e-9);
   EXPECT_EQ(raised.lines_with("time step 0.12 stable with any contacts: ").size(), 1u);
-}
-
-TEST_F(MassFloor, RaisesTheSmallestMassesOnly) {
-  const std::string script = fault_start() +
-                             "create_lsm_fault length 40 width 20 seed 3 failures 500 mass r2 2.0 "
-                             "massfloor ${floor}\n" +
-                             "write_dump all custom ${file} id x y radius mass modify sort id "
-                             "format float %.17g\n";
-  const Result plain = run_text(script, {{"file", "plain.dump"}, {"floor", "0"}});
-  const Result floor = run_text(script, {{"file", "floor.dump"}, {"floor", "0.18"}});
-  ASSERT_TRUE(succeeded(plain));
-  ASSERT_TRUE(succeeded(floor));
-  std::ifstream before(path("plain.dump")), after(path("floor.dump"));
-  std::string a, b;
-  for (int line = 0; line < 9; line++)
-    ASSERT_TRUE(std::getline(before, a) && std::getline(after, b));
-  int raised = 0, all = 0;
-  double id, x, y, r, m, id1, x1, y1, r1, m1;
-  while (before >> id >> x >> y >> r >> m) {
-    ASSERT_TRUE(after >> id1 >> x1 >> y1 >> r1 >> m1);
-    EXPECT_EQ(std::vector<double>({id, x, y, r}), std::vector<double>({id1, x1, y1, r1}));
-    EXPECT_NEAR(m, 2 * r * r, 1e-14);
-    EXPECT_EQ(m1, std::max(m, 0.18));
-    raised += m < 0.18;
-    all++;
-  }
-  EXPECT_GT(all, 300);
-  EXPECT_GT(raised, 30);
-  EXPECT_LT(raised, all - 300);
-  EXPECT_EQ(
-      floor.lines_with("mass floor 0.18: " + std::to_string(raised) + " particles raised").size(),
-      1u);
 }
