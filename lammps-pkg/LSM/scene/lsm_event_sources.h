@@ -24,7 +24,7 @@ class LSMEventSources : protected Pointers {
   LSMEventSources(LAMMPS *, const LSM::EventSettings &);
   /// Stops if something in the scene does not work with recording, and warns of energies that are
   /// not recorded.
-  /// \param recorder the fix that calls the compute
+  /// \param recorder the fix that records
   void check(const Fix *recorder, bool ledger) const;
   /// Stops if the scene lacks something that the settings need; makes the styles record what they
   /// require.
