@@ -24,6 +24,7 @@ KEYS = (
     ("slider chain walk", "the block-slider, and stations between it and the fault"),
     ("tpv205 tpv3 tpv5 single absorbing_step leaky_step", "flat ruptures, single events, time steps"),
     ("nature slow laws", "earthquakes, slow plates, friction laws"),
+    ("sources", "ruptures of the leaky fault as sources of waves"),
     ("speed", "speed beside other programs"),
 )
 # pattern of files, what they are, what makes them, study
@@ -42,6 +43,7 @@ FILES = (
     ("catalogues/* fig13_slider_sizes.*", "block-sliders", "publish.py, postproc histograms", "campaign"),
     ("walk/* walk.*", "stations between the block-slider and the fault", "walk.py", "walk"),
     ("nature.*", "the models beside earthquakes", "nature.py", "campaign, walk"),
+    ("sources.*", "duration, energies and stress drop of ruptures of the leaky fault", "sources.py", "article"),
     ("slow-driving*", "slow plates", "study.sh", "slow-driving, slow-driving-slider"),
     ("laws.csv", "six friction laws", "study.sh", "laws"),
     ("accuracy_* extremes.csv lattice.stiffness.csv waves_*", "errors of time steps, stiff and extreme cases, waves", "target accuracy, study.sh",

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from lsm import LOADING, paper, scaling
 from lsm.analysis import mean_and_error, numbers_of
 from lsm.tables import number, read
+import sources
 import speed_tables
 import validation_tables
 from values import Value
@@ -172,5 +173,5 @@ def law_values():
 def all_values(postproc):
     return [
         *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *scaling_values(),
-        *speed_values(), *validation_tables.all_values(postproc)
+        *speed_values(), *sources.source_values(), *validation_tables.all_values(postproc)
     ]

@@ -30,6 +30,7 @@ import lsm  # noqa: E402
 import nature  # noqa: E402
 import page_values  # noqa: E402
 import periods  # noqa: E402
+import sources  # noqa: E402
 import speed_tables  # noqa: E402
 import validation_tables  # noqa: E402
 import values  # noqa: E402
@@ -433,10 +434,10 @@ def all_values():
 
 
 def check_csv():
-    """The numbers of sentences, files of faults.py and nature.py, and stations of the walk with all their seeds."""
+    """The numbers of sentences, files of faults.py, sources.py and nature.py, and stations of the walk with all their seeds."""
     wrong = [differing(values.TABLE, values.rows(all_values()))]
-    for name, made in ("rates", article.rates), ("estimators", article.estimators), ("ruptures", article.rupture_rows):
-        wrong.append(differing(FOLDER / f"{name}.csv", made()))
+    for name, made in (("rates", article.rates), ("estimators", article.estimators), ("ruptures", article.rupture_rows), ("sources", sources.bins)):
+        wrong.append(differing(FOLDER / f"{name}.csv", list(made())))
     rows = nature.published(POSTPROC)
     wrong += [differing(FOLDER / f"nature{ending}.csv", made) for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)))]
     measured = {row["station"]: row for row in walk.lines_of(walk.measured(POSTPROC, FOLDER / "walk"))}

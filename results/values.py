@@ -30,6 +30,7 @@ CHOSEN = {
     "packings": "4 5 6 11 12 13",
     "cut of short times in memories, stretches with bursts and their periods": "2.5 250 2",
     "times after main shocks": "300 3e4",
+    "moments of ruptures": "10",
     "the block-slider: blocks, time step, and time left out": "512 0.05 12000",
 }
 CONSTANTS = set(f"{PRINTED} {' '.join(CHOSEN.values())}".split())
