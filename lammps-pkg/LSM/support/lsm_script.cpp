@@ -32,8 +32,8 @@ std::string LSMScript::beside(LAMMPS *lmp, FILE *script, const std::string &name
     if (slash != std::string::npos) path = its_name.substr(0, slash + 1) + path;
   }
   lsm_share(path, lmp->world);
-  int readable =
-      lmp->comm->me == 0 && platform::file_is_readable(path) && !platform::path_is_directory(path);
+  int readable = lmp->comm->me == 0 && platform::file_is_readable(path) &&
+      !std::filesystem::is_directory(path);
   int from_input = script == stdin;
   MPI_Bcast(&readable, 1, MPI_INT, 0, lmp->world);
   MPI_Bcast(&from_input, 1, MPI_INT, 0, lmp->world);
