@@ -61,6 +61,18 @@ TEST_F(BadInput, OneLineOfError) {
         << one.lines;
 }
 
+// As LAMMPS' own messages do; those of a run quote no line, as their cause is earlier.
+TEST_F(BadInput, MessagesPointToTheWord) {
+  const std::string line = "Last input line: fix a all lsm/nve viscosity ";
+  const Result word = run_text(fault_read() + "fix a all lsm/nve viscosity -1\n");
+  EXPECT_NE(word.output.find(line + "-1 \n" + std::string(line.size(), ' ') + "^^\n"),
+            std::string::npos)
+      << word.output;
+  const Result run = run_text(fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}});
+  EXPECT_TRUE(failed_with(run, {"stability limit"}));
+  EXPECT_EQ(run.output.find("Last input line"), std::string::npos) << run.output;
+}
+
 TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
   EXPECT_TRUE(failed_with(run_text(fault_read() + "fix a all lsm/nve viscosity -1\n", {}, 2),
                           {"viscosity", "-1"}));
