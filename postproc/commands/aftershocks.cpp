@@ -25,8 +25,7 @@ class AftershockRates : public Statistic {
            "(t + c)^-p + background fitted to it by maximum likelihood (Utsu 1961, Ogata 1983), "
            "and the same for Poisson catalogues of the same events. A main shock is the largest "
            "of all events that start within a window before its start to a window after its end. "
-           "Events before main shocks are counted, too, and both beyond the rate far from main "
-           "shocks. † The paper does not look for aftershocks";
+           "Events before main shocks are counted, too. † The paper does not look for aftershocks";
   }
 
   void add_options(CLI::App *command) override {

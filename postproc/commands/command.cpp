@@ -75,8 +75,7 @@ void Command::add_all_options(CLI::App *command) {
 }
 
 void Analysis::run() {
-  std::vector<Output> others = outputs();
-  others.push_back(json.output());
+  const std::vector<Output> others = {{"--output", file_}, json.output()};
   if (has_base_)
     picture.check(inputs(), endings(), others);
   else

@@ -42,6 +42,12 @@ class Analysis : public Command {
   JsonOutput json;
   PictureOptions picture;
 
+  std::string file_;  ///< which find() writes itself, see WrittenFile
+
+  /// Adds --output for that file.
+  void add_file(OptionGroup group, const std::string &help) {
+    group.add("-o,--output", file_, help, required());
+  }
   /// Adds --output, with a default, and --no-picture.
   void add_picture(CLI::App *command, const std::string &base);
   /// Adds --output, with a default, to a command that draws nothing.
@@ -51,8 +57,6 @@ class Analysis : public Command {
   virtual std::vector<std::string> inputs() const = 0;
   /// Endings of the files that the results may have, besides those of the figure BASE.
   virtual std::vector<std::string> endings() const { return {}; }
-  /// Outputs of other options, which find() writes itself, see WrittenFile.
-  virtual std::vector<Output> outputs() const { return {}; }
   /// Reads the inputs and computes the results.
   virtual Results find() = 0;
 

@@ -15,7 +15,7 @@ namespace {
 
 class Compare : public Statistic {
   Threshold threshold_;
-  int replicas_ = 2000, block_ = 0;
+  int replicas_ = 2000;
   std::uint64_t seed_ = 1;
 
   const char *help() const override {
@@ -33,10 +33,6 @@ class Compare : public Statistic {
     add_table(group, "compare");
     add_threshold(group, threshold_, "the events that are compared");
     group.add("--replicas", replicas_, "Random permutations for each p-value", positive());
-    group.add("--block", block_,
-              "Consecutive events that are permuted as one block; 0: as many as the correlation "
-              "of the series requires; 1: as if events were independent",
-              zero_or_more());
     add_seed(group, seed_);
   }
 
@@ -47,7 +43,7 @@ class Compare : public Statistic {
       return inter_event_times(table, threshold);
     };
     try {
-      return two_sample_test(values(first), values(second), replicas_, seed_, block_);
+      return two_sample_test(values(first), values(second), replicas_, seed_);
     } catch (const std::invalid_argument &e) {
       throw std::runtime_error(
           fmt::format("{} and {}: {}s: {}", first.path, second.path, quantity, e.what()));

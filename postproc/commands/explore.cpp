@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,8 +11,7 @@
 #include "input_file.h"
 #include "moment_rate_input.h"
 #include "new_file.h"
-#include "page.h"
-#include "run_files.h"
+#include "files/header_keys.h"
 #include "series_input.h"
 #include "units.h"
 
@@ -18,9 +19,66 @@ namespace LSM::postproc {
 
 namespace {
 
+/// Removes an ending from a path if the path has it.
+bool take_off(std::string &path, std::string_view ending) {
+  if (path.size() <= ending.size() ||
+      path.compare(path.size() - ending.size(), ending.size(), ending) != 0)
+    return false;
+  path.resize(path.size() - ending.size());
+  return true;
+}
+
+/// Path of the file with this ending beside a catalogue, or "" if there is none.
+std::string file_beside(const std::string &catalogue, const std::string &ending) {
+  std::string base = catalogue;
+  for (const std::string_view packed : {".gz", ".xz"})
+    if (take_off(base, packed)) break;
+  for (const std::string_view kind : {".catalogue.csv", ".ruptures.csv", ".csv"})
+    if (take_off(base, kind)) break;
+  for (const char *const packed : {"", ".gz", ".xz"}) {
+    const std::string path = base + ending + packed;
+    if (path != catalogue && std::filesystem::exists(path)) return path;
+  }
+  return {};
+}
+
 // The page is limited so that browsers open it at once: 2^24 samples take some 11 MB.
 constexpr std::int64_t most_samples = std::int64_t{1} << 24;
 constexpr std::size_t most_events = 100'000;
+
+// Files of one kind, one for each catalogue.
+struct RunFiles {
+  const char *option, *what, *ending;
+  std::vector<std::string> given = {};
+
+  /// A path for each catalogue: as given, or beside it; "": it has none.
+  std::vector<std::string> of(const std::vector<std::string> &catalogues) const {
+    expect_each(option, given.size(), "catalogue", catalogues.size());
+    std::vector<std::string> paths;
+    for (std::size_t i = 0; i < catalogues.size(); ++i)
+      paths.push_back(given.empty()        ? file_beside(catalogues[i], ending)
+                      : given[i] == "none" ? std::string()
+                                           : given[i]);
+    return paths;
+  }
+};
+
+/// Checks that a file is from the same run as a catalogue, as files with the same prefix may not
+/// be. Settings of what is recorded may differ. \throws FileError if another setting that is in
+/// both headers differs
+void check_same_run(const EventTable &of, const std::string &path,
+                    const files::Parameters &parameters) {
+  for (const auto &[key, value] : of.info.header()) {
+    const std::string *const there = files::find(parameters, key);
+    double a = 0.0, b = 0.0;
+    const HeaderKey *const known = header_key(key);
+    if (!there || *there == value || (known && known->of == HeaderKey::Of::recording) ||
+        (text::parse(value, a) && text::parse(*there, b) && a == b))
+      continue;
+    throw FileError(fmt::format("{}: {} = {}, but {} in {}: expected a file of the same run", path,
+                                key, *there, value, of.path));
+  }
+}
 
 /// Checks that series and catalogue count steps and times from the same start.
 /// \throws FileError otherwise
@@ -70,8 +128,11 @@ ExploreEvents load_kind(EventTable table) {
 class Explore : public Command {
   CatalogueOptions catalogues_;
   ExploreSettings page_;
-  RunFiles series_ = RunFiles::series(), ruptures_ = RunFiles::ruptures(),
-           rates_ = RunFiles::moment_rates(), histories_ = RunFiles::history();
+  RunFiles series_ = {"--series", "PE series of the run", ".pe.bin"},
+           ruptures_ = {"--ruptures", "Catalogue of the ruptures of the run", ".ruptures.csv"},
+           rates_ = {"--moment-rates", "Moment rates of the ruptures, of python3 -m lsm.sources",
+                     "-moment-rates.csv"},
+           histories_ = {"--history", "Slip history of the run", ".slip.bin"};
   std::string output_ = "explore.html";
 
   const char *help() const override {
@@ -89,13 +150,11 @@ class Explore : public Command {
     OptionGroup own(command);
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
-    for (RunFiles *files : {&series_, &ruptures_, &rates_, &histories_}) files->add_to(command);
-    OptionGroup slip(command, "Slip");
-    slip.add("--p-speed", page_.p_speed,
-             "Speed of P-waves, by default as measured in packings of create_lsm_fault (paper, "
-             "Eq. 4: 2.12 for k = m0 = 1, the regular lattice)",
-             positive());
-    slip.add("--s-speed", page_.s_speed, "Speed of S-waves, likewise †", positive());
+    OptionGroup beside(command,
+                       "Files of the runs, in the order of their catalogues; none: leave it out");
+    for (RunFiles *files : {&series_, &ruptures_, &rates_, &histories_})
+      beside.add(files->option, files->given, files->what, kind("FILE"),
+                 shown(fmt::format("RUN{} beside RUN.catalogue.csv", files->ending)), one_each());
   }
 
   /// Loads the runs with their drops of PE, and with the ruptures where a run has a catalogue of
@@ -124,9 +183,9 @@ class Explore : public Command {
       const EventTable &drops = run.kinds.front().table;
       if (!tables[k].info.overlapping())
         throw FileError(tables[k].path + ": no catalogue of ruptures, expected one");
-      check_same_run(header_of(drops), header_of(tables[k]));
+      check_same_run(drops, tables[k].path, tables[k].info.header());
       // Short runs may have no ruptures, which is an error only in a catalogue that was asked for.
-      if (tables[k].events.empty() && !ruptures_.given())
+      if (tables[k].events.empty() && ruptures_.given.empty())
         fmt::print(stderr, "postproc: {}: no ruptures, left out\n", tables[k].path);
       else
         run.kinds.push_back(load_kind(std::move(tables[k])));
@@ -140,26 +199,23 @@ class Explore : public Command {
                ruptures = ruptures_.of(paths), rates = rates_.of(paths);
     for (const auto &files : {paths, series, histories, ruptures, rates})
       refuse_input(output_, files);
-    check_replaced(output_, overwrite, is_page_of("explore"));
+    check_replaced(output_, overwrite, begins_with(std::string(head_of_page())));
     std::vector<ExploreRun> runs = load_events(ruptures);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const EventTable &drops = runs[i].kinds.front().table;
-      const HeaderOf header = header_of(drops);
       if (!series[i].empty()) {
         runs[i].series = load_series(series[i], catalogues_);
-        check_same_run(header, {series[i], runs[i].series->info.header()});
+        check_same_run(drops, series[i], runs[i].series->info.header());
         check_same_start(drops, *runs[i].series);
       }
       if (!rates[i].empty()) {
         runs[i].moment_rates = read_moment_rates(rates[i]);
-        check_same_run(header, {rates[i], runs[i].moment_rates->parameters});
+        check_same_run(drops, rates[i], runs[i].moment_rates->parameters);
       }
       if (histories[i].empty()) continue;
       SlipHistoryReader history = open_history(histories[i], catalogues_.lenient);
-      check_same_run(header, {histories[i], history.info().header()});
-      runs[i].history = with_path(histories[i], [&] {
-        return slip_image(history, catalogues_.from_time, catalogues_.to_time);
-      });
+      check_same_run(drops, histories[i], history.info().header());
+      runs[i].history = slip_image(history, catalogues_.from_time, catalogues_.to_time);
       runs[i].history_path = histories[i];
     }
     const std::string page = explore_html(runs, page_);

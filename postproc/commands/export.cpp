@@ -91,11 +91,9 @@ const Format formats[] = {
      "</eventParameters>\n</q:quakeml>\n", quakeml_event}};
 
 class Export : public CatalogueAnalysis {
-  OutputOption output_;
   std::optional<std::string> start_;
   std::string format_ = "seismostats";
   MagnitudeOptions magnitudes_;
-  std::optional<double> degrees_;
   std::optional<double> unit_;  // seconds per unit of model time
 
   const char *help() const override {
@@ -116,7 +114,7 @@ class Export : public CatalogueAnalysis {
     OptionGroup own(command);
     own.remove("--format");  // the format of the output has the name instead
     add_format(OptionGroup(command, "Catalogues"), catalogues, "--input-format");
-    output_.add_to(own, "table");
+    add_file(own, "Table to write");
     OptionGroup group(command, "Conventions †");
     group.add("--format", format_,
               "seismostats: longitude, latitude, depth, time, magnitude (what seismostats.Catalog "
@@ -141,17 +139,12 @@ class Export : public CatalogueAnalysis {
                          {"day", 86400.0},
                          {"year", 365.25 * 86400.0}}),
               positive());
-    group.add("--degrees-per-length", degrees_,
-              "Longitude = x_centroid x this (degrees per model length); 0: all longitudes are 0",
-              shown("0, with --unit-length that of the equator"), finite());
   }
-
-  std::vector<Output> outputs() const override { return {output_.output()}; }
 
   /// Checks that everything was given that a model leaves open.
   /// \throws std::invalid_argument otherwise
   void check_conventions() const {
-    if (magnitudes_.units.given()) {
+    if (magnitudes_.in_si()) {
       if (unit_)
         throw std::invalid_argument(
             "--time-unit with --unit-length, from which it follows: expected one of them");
@@ -181,19 +174,11 @@ class Export : public CatalogueAnalysis {
     return std::llround(*days * 86400e6);
   }
 
-  /// Degrees of longitude per unit of model length.
-  double degrees(const CatalogueInfo &info) const {
-    constexpr double metres = 111194.9;  // per degree on a sphere with a radius of 6371 km
-    if (degrees_ || !info.has("x_centroid") || !magnitudes_.units.given())
-      return degrees_.value_or(0.0);
-    return magnitudes_.units.units().length / metres;
-  }
-
   std::string conventions(std::int64_t start, bool models, bool quakes) const {
     std::string out;
     if (quakes) out = "earthquakes: dates, magnitudes, places and depths of the files\n";
     if (!models) return out;
-    const double second = unit_ ? *unit_ : magnitudes_.units.units().time();
+    const double second = unit_ ? *unit_ : magnitudes_.units().time();
     return out + fmt::format("{}; a unit of time is {} s; time 0 is {}\n", magnitudes_.text(),
                              short_number(second), utc_text(0.0, start, 9999).substr(0, 19));
   }
@@ -203,9 +188,9 @@ class Export : public CatalogueAnalysis {
     const Format *format = formats;
     while (format->name != format_) ++format;
     const std::string of_model = magnitudes_.type(), unknown;
-    const auto file = std::make_shared<ClaimedFile<files::OutputFile>>(output_.path, overwrite);
+    const auto file = std::make_shared<ClaimedFile<files::OutputFile>>(file_, overwrite);
     files::OutputFile &out = file->writer;
-    out.create(output_.path, format->head, true);
+    out.create(file_, format->head, true);
     std::string block;
     std::int64_t written = 0, without = 0;
     std::size_t number = 0;
@@ -219,13 +204,11 @@ class Export : public CatalogueAnalysis {
         if (table.earthquakes()) return;
         check_conventions();
         scale = magnitudes_.scale(path, table.info);
-        second = unit_ ? *unit_ : magnitudes_.units.units(path, table.info).time();
-        per_length = degrees(info = table.info);
-        if (per_length != 0.0 && !table.info.has("x_centroid"))
-          throw std::runtime_error(
-              path +
-              ": has no column x_centroid, expected one for --degrees-per-length (fault: -var "
-              "location yes)");
+        second = unit_ ? *unit_ : magnitudes_.units(path, table.info).time();
+        info = table.info;
+        constexpr double metres = 111194.9;  // per degree on a sphere with a radius of 6371 km
+        if (magnitudes_.in_si() && info.has("x_centroid"))
+          per_length = magnitudes_.units().length / metres;
       };
       const auto write = [&](const Exported &row) {
         ++written;
@@ -270,10 +253,10 @@ class Export : public CatalogueAnalysis {
     if (!models && (unit_ || start_ || magnitudes_.for_models()))
       results.warn(
           "earthquakes keep their dates and magnitudes: --time-unit, --start-date, "
-          "--magnitude-slope, --magnitude-constant and SI units are for models");
+          "--magnitude-constant and SI units are for models");
     results.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\n",
                             written, without, magnitudes_.of()));
-    results.file(output_.path, [file] { file->writer.close(); });
+    results.file(file_, [file] { file->writer.close(); });
     Table counts("events,without_magnitude");
     counts.row(written, without);
     results.table("counts", std::move(counts));

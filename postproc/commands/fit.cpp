@@ -72,16 +72,15 @@ class Fit : public Statistic {
 
   /// The densities of all catalogues, with the laws fitted to them.
   Figure densities(const std::vector<EventTable> &tables, const std::vector<SizeFit> &fits) const {
-    DensitySettings settings;
     double least = settings_.threshold.given.value_or(paper_threshold);
     for (const Range &range : settings_.ranges) least = std::min(least, range.lo);
-    settings.threshold = settings_.ranges.empty() ? settings_.threshold : Threshold(least);
-    const std::vector<SizeDensity> densities = size_densities(tables, settings);
+    const Threshold from = settings_.ranges.empty() ? settings_.threshold : Threshold(least);
+    const std::vector<SizeDensity> densities = size_densities(tables, from);
     std::vector<PowerLine> lines;
     for (const SizeFit &fit : fits)
       if (!fit.fit.degenerate) lines.push_back(fitted_line(fit, densities[fit.catalogue]));
     Figure figure = size_density_figure(densities, lines);
-    figure.table.comment(texts(settings.threshold, tables));
+    figure.table.comment(texts(from, tables));
     return figure;
   }
 

@@ -8,8 +8,8 @@ namespace LSM::postproc {
 namespace {
 
 class Histograms : public Statistic {
-  DensitySettings settings_;
-  std::string range_;
+  Threshold threshold_;
+  double factor_ = usual_bin_factor;
   std::vector<std::string> guides_;
 
   const char *help() const override {
@@ -21,9 +21,8 @@ class Histograms : public Statistic {
     add_usual(command, "histograms");
     add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Densities");
-    add_threshold(group, settings_.threshold, "the densities");
-    group.add("--range", range_, "LO:HI, only bins within this range of sizes");
-    group.add("--bin-factor", settings_.factor,
+    add_threshold(group, threshold_, "the densities");
+    group.add("--bin-factor", factor_,
               "Ratio of the edges of a bin, c of the paper's c^n († ten bins a "
               "decade); for earthquakes the nearest whole number of bins of magnitudes");
     group.add("--guide", guides_,
@@ -33,22 +32,16 @@ class Histograms : public Statistic {
   }
 
   Results of(const std::vector<EventTable> &tables) override {
-    if (!range_.empty()) {
-      const Range range = parse_range("--range", range_);
-      if (range.lo > -std::numeric_limits<double>::infinity())
-        settings_.threshold = std::max(range.lo, settings_.threshold.given.value_or(range.lo));
-      settings_.upto = range.hi;
-    }
     std::vector<PowerLine> lines;
     for (const std::string &guide : guides_) {
       lines.push_back(parse_guide(guide));
       lines.back().dash = 1 + static_cast<int>(lines.size());
     }
-    const std::vector<SizeDensity> densities = size_densities(tables, settings_);
+    const std::vector<SizeDensity> densities = size_densities(tables, threshold_, factor_);
     Figure figure = size_density_figure(densities, lines);
-    figure.table.comment(texts(settings_.threshold, tables));
+    figure.table.comment(texts(threshold_, tables));
     Results results;
-    results.say(texts(settings_.threshold, tables));
+    results.say(texts(threshold_, tables));
     results.say(bin_notes(tables));
     for (const SizeDensity &density : densities)
       if (density.bins.empty())

@@ -74,7 +74,6 @@ class Intervals : public Statistic {
   Results of(const std::vector<EventTable> &tables) override {
     settings_.least_squares = method_ != "likelihood";
     settings_.maximum_likelihood = method_ != "least-squares";
-    settings_.cuts = true;
     settings_.deltas.clear();
     for (const std::string &text : deltas_) {
       double delta = std::numeric_limits<double>::quiet_NaN();
@@ -86,7 +85,6 @@ class Intervals : public Statistic {
     expect_events(tables);
     const std::vector<IntervalCurve> curves = interval_curves(tables, settings_);
     Figure figure = interval_figure(curves, settings_.rescale);
-    const std::vector<Table1Row> rows = table1_rows(curves);
     Results results;
     for (const IntervalCurve &curve : curves)
       if (curve.bins.empty())
@@ -98,10 +96,9 @@ class Intervals : public Statistic {
       else if (curve.zeros > 0)
         results.warn(fmt::format("{}, {}: {} of {} times are 0, left out of densities and fits",
                                  curve.sample.label, curve.sample.from(), curve.zeros, curve.n));
-    results.table("", table1(rows, settings_.rescale), ".table1");
+    results.table("", table1(curves, settings_.rescale), ".table1");
     results.table("times", times_of(curves));
-    results.numbers("fits", table1(rows, settings_.rescale, false).json());
-    results.table("gamma_of_cut", cuts_table(curves));
+    results.numbers("fits", table1(curves, settings_.rescale, false).json());
     results.table("clustering", clustering_table(curves, date_text), ".clustering");
     results.figure("densities", std::move(figure));
     return results;

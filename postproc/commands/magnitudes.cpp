@@ -22,10 +22,10 @@ class Magnitudes : public Statistic {
     return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
            "Mulargia 1987; error Shi and Bolt 1982), b-positive (van der Elst 2021) and "
            "completeness by maximum curvature. † The paper has sizes only. Magnitudes are "
-           "those of the file for earthquakes, and for models a convention, M = slope log10(size) + "
+           "those of the file for earthquakes, and for models a convention, M = (2/3) log10(size) + "
            "constant, unless the model has SI units "
            "(--unit-length, --p-speed, --density); a power law of sizes with exponent a gives b = "
-           "(a - 1) / slope";
+           "3 (a - 1) / 2";
   }
 
   void add_options(CLI::App *command) override {
@@ -146,10 +146,8 @@ class Magnitudes : public Statistic {
     if (magnitudes_.for_models() &&
         std::all_of(tables.begin(), tables.end(), [](auto &table) { return table.earthquakes(); }))
       results.warn(
-          "earthquakes keep their magnitudes: --magnitude-slope and --magnitude-constant are for "
-          "models");
-    results.table("b_values", magnitude_table(curves, magnitudes_.slope_used(), formula(tables)),
-                  ".bvalues");
+          "earthquakes keep their magnitudes: --magnitude-constant and SI units are for models");
+    results.table("b_values", magnitude_table(curves, formula(tables)), ".bvalues");
     results.figure("frequencies", magnitude_figure(curves));
     return results;
   }

@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -76,20 +75,7 @@ PowerLine parse_guide(std::string_view text) {
   return line;
 }
 
-void UnitOptions::add_to(OptionGroup group) {
-  group.add("--unit-length", length,
-            "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
-            "--density everything is in SI (postproc/units.md)",
-            positive());
-  group.add("--p-speed", p_speed, "Speed of P-waves in the rock, m/s", positive());
-  group.add("--density", density, "Density of the rock, kg/m^3", positive());
-  group.add("--thickness", thickness,
-            "Metres of the fault across the plane of the model, to which energies and moments are "
-            "proportional; default: a unit of length",
-            positive());
-}
-
-ModelUnits UnitOptions::units() const {
+ModelUnits MagnitudeOptions::units() const {
   if (!length || !p_speed || !density)
     throw std::invalid_argument(fmt::format(
         "no {}: expected all of --unit-length, --p-speed and --density", !length ? "--unit-length"
@@ -98,7 +84,7 @@ ModelUnits UnitOptions::units() const {
   return {*length, *p_speed, *density, thickness.value_or(*length)};
 }
 
-ModelUnits UnitOptions::units(const std::string &path, const CatalogueInfo &info) const {
+ModelUnits MagnitudeOptions::units(const std::string &path, const CatalogueInfo &info) const {
   if (info.model != "lsm")
     throw std::runtime_error(fmt::format(
         "{}: model is '{}', expected 'lsm' for SI units: only the lattice solid fault has a medium",
@@ -111,32 +97,33 @@ void MagnitudeOptions::add_to(OptionGroup group) {
             "size: of the size of an event (an energy); moment: of its slip moment, a column that "
             "not every catalogue has (fault: -var location yes)",
             among({"size", "moment"}), shown("size, with --unit-length moment"));
-  units.add_to(group);
-  group.add(
-      "--magnitude-slope", slope,
-      "Models: magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
-      "logarithm itself",
-      shown("2/3"), finite(), positive());
+  group.add("--unit-length", length,
+            "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
+            "--density everything is in SI (postproc/units.md)",
+            positive());
+  group.add("--p-speed", p_speed, "Speed of P-waves in the rock, m/s", positive());
+  group.add("--density", density, "Density of the rock, kg/m^3", positive());
+  group.add("--thickness", thickness,
+            "Metres of the fault across the plane of the model, to which energies and moments are "
+            "proportional; default: a unit of length",
+            positive());
   group.add("--magnitude-constant", constant, "Models: magnitude of an event of size (or moment) 1",
             finite());
 }
 
 void MagnitudeOptions::check() const {
-  if (!units.given()) return;
-  units.units();
-  if (slope || constant)
-    throw std::invalid_argument(fmt::format(
-        "--magnitude-{} with --unit-length, from which it follows: expected one of them",
-        slope ? "slope" : "constant"));
+  if (!in_si()) return;
+  units();
+  if (constant)
+    throw std::invalid_argument(
+        "--magnitude-constant with --unit-length, from which it follows: expected one of them");
 }
 
-std::string MagnitudeOptions::type() const {
-  return !units.given() ? "M" : of_moment() ? "Mw" : "Me";
-}
+std::string MagnitudeOptions::type() const { return !in_si() ? "M" : of_moment() ? "Mw" : "Me"; }
 
 std::string MagnitudeOptions::text() const {
-  if (!units.given())
-    return fmt::format("M = {} log10({}) + {}", short_number(slope_used()), of(),
+  if (!in_si())
+    return fmt::format("M = {} log10({}) + {}", short_number(MagnitudeScale::slope), of(),
                        short_number(constant.value_or(0.0)));
   return of_moment()
              ? "Mw = (2/3) (log10 M0 - 9.1), M0 in N m from slip_moment"
@@ -153,28 +140,22 @@ void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &inf
 
 double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &info) const {
   require(path, info);
-  const ModelUnits in_si = units.units(path, info);
-  if (!of_moment()) return in_si.energy();
+  const ModelUnits si = units(path, info);
+  if (!of_moment()) return si.energy();
   // Column slip_moment includes the modulus of the header, if there is one.
   double modulus = 1.0;
   const std::string *const text = info.find("modulus");
   if (text && (!text::parse(*text, modulus) || !(modulus > 0.0)))
     throw std::runtime_error(
         fmt::format("{}: modulus is '{}', expected a positive number", path, *text));
-  return in_si.moment() / modulus;
+  return si.moment() / modulus;
 }
 
 MagnitudeScale MagnitudeOptions::scale(const std::string &path, const CatalogueInfo &info) const {
   require(path, info);
-  if (!units.given()) return {slope_used(), constant.value_or(0.0)};
+  if (!in_si()) return {constant.value_or(0.0)};
   const double unit = si_unit(path, info);
   return of_moment() ? moment_magnitude(unit) : energy_magnitude(unit);
-}
-
-void OutputOption::add_to(OptionGroup group, const std::string &what) {
-  std::string first = what;
-  first[0] = static_cast<char>(std::toupper(first[0]));
-  group.add("-o,--output", path, first + " to write", required());
 }
 
 void JsonOutput::add_to(CLI::App *command) {

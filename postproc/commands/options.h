@@ -32,37 +32,30 @@ Range parse_range(const std::string &option, std::string_view text);
 /// \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
 
-/// Options that say what the units of the fault are in SI.
-struct UnitOptions {
+/// Options that define the magnitudes of events.
+struct MagnitudeOptions {
+  std::optional<double> constant;
   /// Unit of length (m), speed of P-waves (m/s), density (kg/m^3) and thickness (m).
   std::optional<double> length, p_speed, density, thickness;
 
-  /// Adds --unit-length, --p-speed, --density and --thickness.
+  /// Adds --magnitude-of, --unit-length, --p-speed, --density, --thickness and
+  /// --magnitude-constant.
   void add_to(OptionGroup group);
-  bool given() const { return length || p_speed || density || thickness; }
-  /// Returns the units. The default of the thickness is the unit of length.
+  /// Whether any unit of the fault is given in SI.
+  bool in_si() const { return length || p_speed || density || thickness; }
+  /// The units. The default of the thickness is the unit of length.
   /// \throws std::invalid_argument if one of the first three is missing
   ModelUnits units() const;
   /// As units(), for one catalogue.
-  /// \throws std::invalid_argument if one of the first three is missing
   /// \throws std::runtime_error if its model has no elastic medium
   ModelUnits units(const std::string &path, const CatalogueInfo &info) const;
-};
-
-/// Options that define the magnitudes of events.
-struct MagnitudeOptions {
-  UnitOptions units;
-  std::optional<double> slope, constant;
-
-  /// Adds --magnitude-of, the units, --magnitude-slope and --magnitude-constant.
-  void add_to(OptionGroup group);
   /// \throws std::invalid_argument if options contradict each other
   void check() const;
   /// Whether something was given that earthquakes, which have magnitudes, do not need.
-  bool for_models() const { return units.given() || slope || constant; }
+  bool for_models() const { return in_si() || constant; }
   /// Name of the column from which magnitudes are calculated.
   std::string of() const { return of_moment() ? "slip_moment" : "size"; }
-  bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && units.given()); }
+  bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && in_si()); }
   double quantity(const EventRow &event, const CatalogueInfo &info) const {
     return of_moment() ? info.number(event, "slip_moment") : event.size;
   }
@@ -79,20 +72,9 @@ struct MagnitudeOptions {
   /// Magnitude scale of one catalogue.
   /// \throws std::runtime_error if the catalogue lacks the column or its model has no SI units
   MagnitudeScale scale(const std::string &path, const CatalogueInfo &info) const;
-  double slope_used() const { return slope.value_or(MagnitudeScale().slope); }
 
  private:
   std::string made_of_;
-};
-
-/// A file that a command writes in addition to its results.
-struct OutputOption {
-  std::string path;
-
-  /// Adds --output.
-  /// \param what is written, for the help
-  void add_to(OptionGroup group, const std::string &what);
-  Output output() const { return {"--output", path}; }
 };
 
 /// Option --json: a JSON object that holds each table under its name, as an array with an object

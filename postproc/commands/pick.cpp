@@ -44,7 +44,6 @@ files::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSet
 
 class Pick : public Analysis {
   std::string series_;
-  OutputOption output_;
   SeriesOptions samples_;
   PickerOptions picker_;
   std::optional<double> warmup_;
@@ -61,7 +60,7 @@ class Pick : public Analysis {
   void add_options(CLI::App *command) override {
     OptionGroup group(command);
     add_series(group, series_);
-    output_.add_to(group, "catalogue");
+    add_file(group, "Catalogue to write");
     add_samples(group, samples_, false);
     json.add_to(command);
     group.add("--warmup", warmup_,
@@ -71,7 +70,6 @@ class Pick : public Analysis {
   }
 
   std::vector<std::string> inputs() const override { return {series_}; }
-  std::vector<Output> outputs() const override { return {output_.output()}; }
 
   Results find() override {
     SeriesInput series(series_, samples_);
@@ -86,9 +84,9 @@ class Pick : public Analysis {
     CatalogueInfo header;
     header.model = info.model;
     header.parameters = catalogue_parameters(info, picker.settings(), settings);
-    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
+    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(file_, overwrite);
     CatalogueWriter &catalogue = file->writer;
-    catalogue.create(output_.path, header, true);
+    catalogue.create(file_, header, true);
     Event event;
     const std::int64_t samples = series.read([&](std::int64_t step, double time, double pe) {
       if (!picker.push(step, time, pe, event) || !filter.passes(event)) return;
@@ -102,7 +100,7 @@ class Pick : public Analysis {
         "before the warm-up ended{}\n",
         samples, catalogue.rows(), out.dropped_nonpositive, out.dropped_small, out.before_warmup,
         picker.in_event() ? ", 1 that had not ended" : ""));
-    results.file(output_.path, [file] { file->writer.close(); });
+    results.file(file_, [file] { file->writer.close(); });
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
     counts.row(samples, catalogue.rows(), out.dropped_nonpositive, out.dropped_small,
                out.before_warmup, picker.in_event());

@@ -29,8 +29,6 @@ CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options
 }
 
 class Select : public CatalogueAnalysis {
-  OutputOption output_;
-
   const char *help() const override {
     return "Writes the events of a model's catalogue that --from, --to, --min-size and --where select as "
            "a catalogue: numbers and columns unchanged, and the selection in the header †";
@@ -42,17 +40,15 @@ class Select : public CatalogueAnalysis {
     catalogues.min_size = -std::numeric_limits<double>::infinity();
     OptionGroup group(command);
     for (const char *const name : {"--label", "--region", "--format"}) group.remove(name);
-    output_.add_to(group, "catalogue");
+    add_file(group, "Catalogue to write");
   }
-
-  std::vector<Output> outputs() const override { return {output_.output()}; }
 
   Results find() override {
     if (catalogues.paths.size() != 1)
       throw std::invalid_argument(
           fmt::format("{} catalogues, expected one", catalogues.paths.size()));
     check(catalogues);
-    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
+    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(file_, overwrite);
     CatalogueWriter &writer = file->writer;
     const EventTable table = read_events(
         catalogues.paths.front(), catalogues, [&](const EventRow &event) { writer.write(event); },
@@ -60,7 +56,7 @@ class Select : public CatalogueAnalysis {
           if (of.earthquakes())
             throw std::invalid_argument(of.path + ": earthquakes, expected a catalogue of a model");
           check_kinds(catalogues, 0, 1);
-          writer.create(output_.path, header_of(of, catalogues), true);
+          writer.create(file_, header_of(of, catalogues), true);
         });
     state_repairs(table);
     Results results;
@@ -68,7 +64,7 @@ class Select : public CatalogueAnalysis {
         "{} events; left out: {} by time, {} by size{}\n", writer.rows(), table.left_out_time,
         table.left_out_small,
         catalogues.where.empty() ? "" : fmt::format(", {} by --where", table.left_out_where)));
-    results.file(output_.path, [file] { file->writer.close(); });
+    results.file(file_, [file] { file->writer.close(); });
     return results;
   }
 };

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "new_file.h"
 #include "numbers.h"
 #include "series_figures.h"
 #include "series_options.h"
@@ -14,28 +13,8 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Writes the samples as text.
-class SeriesText {
- public:
-  static constexpr const char *begin = "# PE series\n";
-  SeriesText(const std::string &path, const PeSeriesInfo &info) : file_(path, true) {
-    lines_ = begin + files::lines_of(info.header()) + "step,time,pe\n";
-    file_.writer.create(path, "", true);
-  }
-  void add(std::int64_t step, double time, double pe) {
-    lines_ += fmt::format("{},{},{}\n", step, text::number(time), text::number(pe));
-    if (lines_.size() > (1 << 16)) flush();
-  }
-  void flush() { file_.writer.write(std::exchange(lines_, {})); }
-  void close() { file_.writer.close(); }
-
- private:
-  ClaimedFile<files::OutputFile> file_;
-  std::string lines_;
-};
-
 class Series : public Analysis {
-  std::string series_, title_, text_;
+  std::string series_, title_;
   SeriesOptions samples_;
   PickerOptions picker_;
   std::int64_t columns_ = 2000;
@@ -56,18 +35,10 @@ class Series : public Analysis {
               "Columns of the picture †. More than twice as many samples are thinned to the "
               "smallest and largest value in each column, of which there are up to twice as many",
               between(std::int64_t{10}, std::int64_t{1000000}));
-    group.add("--export", text_,
-              "Writes the samples of the window as text, too: columns step, time and pe with 17 "
-              "significant digits, after the header of the series as comment lines",
-              kind("FILE"), shown("none"));
     add_picture(command, "series");
     add_picker_options(command, picker_);
   }
 
-  std::vector<Output> outputs() const override {
-    if (text_.empty()) return {};
-    return {{"--export", text_}};
-  }
   std::vector<std::string> inputs() const override { return {series_}; }
   std::vector<std::string> endings() const override { return {"-events.csv"}; }
 
@@ -79,12 +50,10 @@ class Series : public Analysis {
     Thinner curves;
     Table events{"t_start,t_end,pe_start,pe_end,size"};
     std::string model;
-    std::shared_ptr<SeriesText> text;  ///< nullptr: not requested
     PickerSettings picker;
   };
 
   Samples read() const {
-    check_replaced(text_, overwrite, begins_with(SeriesText::begin));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     SeriesInput series(series_, samples_);
     EventPicker picker(picker_settings(picker_, series.info()));
@@ -92,7 +61,6 @@ class Series : public Analysis {
     Samples out(columns_);
     out.picker = picker.settings();
     Extent &times = out.times;
-    if (!text_.empty()) out.text = std::make_shared<SeriesText>(text_, series.info());
     double before = nan;
     Event event;
     out.model = series.info().model;
@@ -100,13 +68,10 @@ class Series : public Analysis {
       if (!is_before(time, samples_.from_time)) times.add(time);
       if (picker.push(step, time, pe, event) && filter.passes(event) && event.t_end >= times.lo)
         out.events.row(event.t_start, event.t_end, event.pe_start, event.pe_end, event.size);
-      if (!times.empty()) {
-        if (out.text) out.text->add(step, time, pe);
+      if (!times.empty())
         out.curves.add(time, {pe, pe - before, std::isnan(before) ? nan : picker.rate()});
-      }
       before = pe;
     });
-    if (out.text) out.text->flush();
     out.picked = out.events.rows();
     if (picker.in_event())
       out.events.row(picker.state().t_start, times.hi, picker.state().pe_start, before, nan);
@@ -138,7 +103,6 @@ class Series : public Analysis {
     counts.row(samples.count, samples.picked, times.lo, times.hi);
     results.table("series", std::move(counts));
     results.table("events", std::move(samples.events), "-events");
-    if (samples.text) results.file(text_, [text = samples.text] { text->close(); });
     results.figure("", std::move(figure));
     return results;
   }

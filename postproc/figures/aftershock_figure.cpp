@@ -27,10 +27,6 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   table.show("counted from", [](auto &line) { return line.rule.first; });
   table.column("events", "events after main shocks", [](auto &line) { return line.fit.n; });
   table.show("events as long before", [](auto &line) { return line.sequences.before.size(); });
-  table.show("rate far from main shocks", [](auto &line) { return line.sequences.background(); });
-  table.show("beyond it after", [](auto &line) { return line.sequences.excess_after(); });
-  table.show("beyond it before", [](auto &line) { return line.sequences.excess_before(); });
-  table.show("after / before", [](auto &line) { return line.sequences.after_to_before(); });
   table.column("constant", "constant rate", [](auto &line) {
     return Measured{line.fit.constant, line.fit.se_constant};
   });
@@ -49,13 +45,7 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   table.data("label", [](auto &line) { return line.of.label; });
   table.data("degenerate", [](auto &line) { return line.fit.why; });
   table.data("before", [](auto &line) { return line.sequences.before.size(); });
-  table.data("quiet_rate", [](auto &line) { return line.sequences.background(); });
-  table.data("excess_after", [](auto &line) { return line.sequences.excess_after(); });
-  table.data("excess_before", [](auto &line) { return line.sequences.excess_before(); });
-  table.data("after_to_before", [](auto &line) { return line.sequences.after_to_before(); });
-  table.comment(
-      "before: events as long before the main shocks; quiet_rate: of events outside of the windows "
-      "of all main shocks; excess_*: events beyond it; after_to_before: their ratio");
+  table.comment("before: events as long before the main shocks");
   table.comment(
       "n(t) = K (t + c)^-p + background after the end of a main shock, in model time (earthquakes: "
       "days)");

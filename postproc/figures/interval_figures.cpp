@@ -2,6 +2,7 @@
 #include "interval_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 
@@ -64,7 +65,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
                          thresholds.size() > 1 ? ", " + curve.sample.from() : "", curve.n));
     const IntervalFit *const fit = curve.drawn();
     if (!fit) continue;
-    const bool rejected = fit->p.value < 0.05;
+    const bool rejected = fit->rejected();
     (rejected ? any_rejected : any_accepted) = true;
     add_fit(plot, number, curve, fit->fit, rejected);
   }
@@ -89,45 +90,6 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
            true, range.lo, range.hi) +
           axis("y", "probability density f(θ)" + (rescaled ? std::string() : " (1 / " + unit + ")"),
                true, 0.3 * heights.lo, heights.hi));
-}
-
-Table cuts_table(const std::vector<IntervalCurve> &curves) {
-  struct Line {
-    std::int64_t number;
-    const IntervalCurve &curve;
-    const GammaOfCut &at;
-    bool used() const {
-      return at.cut == shortest_time({}, curve.sample.memory, curve.fitted_mean());
-    }
-  };
-  TableOf<Line> table;
-  table.show("catalogue", [](auto &line) { return line.curve.sample.label; });
-  table.data("curve", &Line::number);
-  table.data("threshold", [](auto &line) { return line.curve.sample.threshold.size; });
-  table.column(
-      "cut", "times from", [](auto &line) { return line.at.cut; }, 3);
-  table.column(
-      "cut_over_mean", "over the mean",
-      [](auto &line) { return line.at.cut / line.curve.fitted_mean(); }, 2);
-  table.column(
-      "cut_over_memory", "over the picker's memory",
-      [](auto &line) { return line.at.cut / line.curve.sample.memory; }, 2);
-  table.column("n", "times", [](auto &line) { return line.at.fit.n; });
-  table.column("gamma", "γ", [](auto &line) {
-    return Measured{line.at.fit.gamma, line.at.fit.se_gamma};
-  });
-  table.column("used", "", [](auto &line) { return line.used() ? "used" : ""; });
-  table.data("label", [](auto &line) { return line.curve.sample.label; });
-  table.data("degenerate", [](auto &line) { return line.at.fit.why; });
-  table.comment(
-      "gamma with delta = 1 by maximum likelihood of the times from a cut on; used: the cut of all "
-      "commands, the larger of 2.5 memories of the picker and 0.05 of the mean");
-  std::int64_t number = 0;
-  for (const IntervalCurve &curve : curves) {
-    ++number;
-    for (const GammaOfCut &one : curve.cuts) table.row({number, curve, one});
-  }
-  return Table(std::move(table));
 }
 
 namespace {
@@ -192,26 +154,6 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
 
 namespace {
 
-Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
-  const GeneralisedGammaFit &fit = of.fit;
-  Table1Row row;
-  row.source = curve.sample.label;
-  row.from = curve.sample.from();
-  row.method = of.method;
-  if (!std::isnan(of.held)) row.method += fmt::format(", δ = {} held", short_number(of.held));
-  row.threshold = curve.sample.threshold.size;
-  row.shortest = fit.lo;
-  row.n = fit.n;
-  row.why = fit.degenerate ? fit.why : "";
-  if (fit.degenerate) return row;
-  row.parameters = {
-      {{fit.gamma, fit.se_gamma}, {fit.delta, fit.se_delta}, {fit.B, fit.se_B}, {fit.C, fit.se_C}}};
-  if (fit.dof > 0) row.misfit = fit.chi2 / fit.dof;
-  row.ks = fit.ks;
-  row.p = of.p;
-  return row;
-}
-
 /// A row of the paper's Table 1: gamma, delta, B and C with the digits printed there.
 struct PrintedRow {
   std::string source;
@@ -222,63 +164,62 @@ const std::array<PrintedRow, 3> printed_rows = {
      {"LSM", {"0.995", "1.00", "15.21", "0.0573"}},
      {"Block-Slider", {"0.0", "1.00", "100.0", "0.25"}}}};
 
-/// One of our rows, or a printed one.
+/// One of our fits, or a printed row.
 struct Table1Line {
-  const Table1Row &ours;
+  const IntervalCurve &curve;
+  const IntervalFit &of;
   const PrintedRow *printed = nullptr;
+  const GeneralisedGammaFit &fit = of.fit;
 
+  std::string source() const { return printed ? printed->source : curve.sample.label; }
+  std::string from() const { return printed ? "" : curve.sample.from(); }
+  std::string method() const {
+    return std::isnan(of.held) || printed
+               ? of.method
+               : fmt::format("{}, δ = {} held", of.method, short_number(of.held));
+  }
+  Cell times() const { return printed ? Cell(std::string()) : Cell(fit.n); }
+  double ours(double number) const { return printed ? NAN : number; }
+  double shortest() const { return ours(fit.lo); }
   Cell parameter(std::size_t k) const {
-    return printed ? Cell(printed->parameters[k]) : Cell(ours.parameters[k]);
+    const Measured found[] = {
+        {fit.gamma, fit.se_gamma}, {fit.delta, fit.se_delta}, {fit.B, fit.se_B}, {fit.C, fit.se_C}};
+    return printed ? Cell(printed->parameters[k]) : Cell(found[k]);
   }
   std::string rejected() const {
-    return std::isnan(ours.p.value) ? "" : ours.rejected() ? "yes" : "no";
+    return std::isnan(of.p.value) ? "" : of.rejected() ? "yes" : "no";
   }
 };
 
 }  // namespace
 
-std::vector<Table1Row> table1_rows(const std::vector<IntervalCurve> &curves) {
-  std::vector<Table1Row> rows;
-  for (const IntervalCurve &curve : curves)
-    for (const IntervalFit &fit : curve.fits) rows.push_back(row_of(curve, fit));
-  return rows;
-}
-
-Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
+Table table1(const std::vector<IntervalCurve> &curves, bool rescaled, bool printed) {
   TableOf<Table1Line> table;
   const auto parameter = [](std::size_t k) {
     return [k](const Table1Line &line) { return line.parameter(k); };
   };
-  const auto source = [](auto &line) {
-    return line.printed ? line.printed->source : line.ours.source;
-  };
-  const auto method = [](auto &line) { return line.ours.method; };
   table.column("origin", "Table 1", [](auto &line) { return line.printed ? "printed" : "ours"; });
-  table.show("", source);
-  table.show("", [](auto &line) { return line.ours.from; });
-  table.show("", method);
-  table.data("threshold", [](auto &line) {
-    return line.printed ? std::numeric_limits<double>::quiet_NaN() : line.ours.threshold;
-  });
-  table.column("n", "times",
-               [](auto &line) { return line.printed ? Cell(std::string()) : Cell(line.ours.n); });
+  table.show("", &Table1Line::source);
+  table.show("", &Table1Line::from);
+  table.show("", &Table1Line::method);
+  table.data("threshold", [](auto &line) { return line.ours(line.curve.sample.threshold.size); });
+  table.column("n", "times", &Table1Line::times);
   table.column("gamma", "γ", parameter(0), 4, true);
   table.column("delta", "δ", parameter(1), 4, true);
   table.column("B", "B", parameter(2), 4, true);
   table.column("C", "C", parameter(3), 4, true);
-  table.show(
-      "from", [](auto &line) { return line.ours.shortest; }, 3);
+  table.show("from", &Table1Line::shortest, 3);
   table.column(
-      "chi2_per_dof", "χ²/dof", [](auto &line) { return line.ours.misfit; }, 3);
+      "chi2_per_dof", "χ²/dof", [](auto &line) { return line.fit.chi2 / line.fit.dof; }, 3);
   table.column(
-      "ks", "KS", [](auto &line) { return line.ours.ks; }, 3);
+      "ks", "KS", [](auto &line) { return line.fit.ks; }, 3);
   table.column(
-      "p", "p", [](auto &line) { return line.ours.p; }, 2);
+      "p", "p", [](auto &line) { return line.of.p; }, 2);
   table.column("rejected", "rejected", &Table1Line::rejected);
-  table.data("source", source);
-  table.data("method", method);
-  table.data("shortest", [](auto &line) { return line.ours.shortest; });
-  table.column("degenerate", "degenerate", [](auto &line) { return line.ours.why; });
+  table.data("source", &Table1Line::source);
+  table.data("method", &Table1Line::method);
+  table.data("shortest", &Table1Line::shortest);
+  table.column("degenerate", "degenerate", [](auto &line) { return line.fit.why; });
   table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
       fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
@@ -286,11 +227,17 @@ Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
   table.comment(
       "to quote: maximum likelihood with delta = 1 held; least squares with C free is what the "
       "paper did");
-  table.comment(fmt::format("rejected: {}", rejection_rule));
-  const Table1Row none;
+  table.comment(
+      "rejected: p below 0.05. p is the probability of a fit as poor or poorer if the times are "
+      "independent and follow the fitted density: least squares from χ² and its degrees of freedom "
+      "(dof), maximum likelihood as the share of synthetic samples, each fitted like the data, whose "
+      "Kolmogorov-Smirnov distance KS is as large");
+  const IntervalCurve no_curve = {};
+  const IntervalFit no_fit = {};
   if (printed)
-    for (const PrintedRow &row : printed_rows) table.row({none, &row});
-  for (const Table1Row &row : rows) table.row({row});
+    for (const PrintedRow &row : printed_rows) table.row({no_curve, no_fit, &row});
+  for (const IntervalCurve &curve : curves)
+    for (const IntervalFit &fit : curve.fits) table.row({curve, fit});
   return Table(std::move(table));
 }
 

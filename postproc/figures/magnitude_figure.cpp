@@ -10,8 +10,8 @@
 
 namespace LSM::postproc {
 
-Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
-                      const std::string &formula) {
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const std::string &formula) {
+  constexpr double slope = MagnitudeScale::slope;
   TableOf<MagnitudeCurve> table;
   table.show("catalogue", &MagnitudeCurve::label);
   table.show("magnitudes", [](auto &c) { return c.magnitudes.size(); });
@@ -22,7 +22,7 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
   table.column("n", "used for b", [](auto &c) { return c.b.n; });
   table.column("b", "b", [](auto &c) { return Measured{c.b.b, c.b.error}; });
   table.show("degenerate", [](auto &c) { return c.b.why; });
-  table.show(fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), [slope](auto &c) {
+  table.show(fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), [](auto &c) {
     return Measured{1.0 + slope * c.b.b, slope * c.b.error};
   });
   table.column("n_positive", "used for b-positive", [](auto &c) { return c.positive.n; });

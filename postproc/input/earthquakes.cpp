@@ -7,12 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "event_documents.h"
+#include "event_collector.h"
 #include "files/file_error.h"
 #include "files/input_bytes.h"
 #include "files/text.h"
-#include "quakeml.h"
-#include "text_tables.h"
 
 namespace LSM::postproc {
 

@@ -14,16 +14,22 @@
 namespace LSM::postproc {
 
 EventCondition parse_condition(const std::string &text) {
-  using Is = EventCondition::Is;
+  using Holds = bool (*)(double, double);
+  constexpr Holds equal = [](double a, double b) { return a == b; };
   // Of two that fit at the same place, the longer one comes first.
-  constexpr std::pair<std::string_view, Is> words[] = {
-      {"<=", Is::at_most}, {">=", Is::at_least}, {"!=", Is::different}, {"==", Is::equal},
-      {"<", Is::less},     {">", Is::more},      {"=", Is::equal}};
+  constexpr std::pair<std::string_view, Holds> words[] = {
+      {"<=", [](double a, double b) { return a <= b; }},
+      {">=", [](double a, double b) { return a >= b; }},
+      {"!=", [](double a, double b) { return a != b; }},
+      {"==", equal},
+      {"<", [](double a, double b) { return a < b; }},
+      {">", [](double a, double b) { return a > b; }},
+      {"=", equal}};
   const std::size_t at = text.find_first_of("<>=!");
-  for (const auto &[word, is] : words) {
+  for (const auto &[word, holds] : words) {
     if (at == std::string::npos || text.compare(at, word.size(), word) != 0) continue;
     const std::string column(text::trim(std::string_view(text).substr(0, at)));
-    EventCondition out{column, is, 0.0};
+    EventCondition out{column, holds, 0.0, word[0] == '>'};
     if (!column.empty() &&
         text::parse(text::trim(std::string_view(text).substr(at + word.size())), out.number))
       return out;
@@ -80,33 +86,15 @@ double EventConditions::value(const One &one, const EventRow &event) const {
 }
 
 bool EventConditions::hold(const EventRow &event) const {
-  using Is = EventCondition::Is;
   return std::all_of(all_.begin(), all_.end(), [&event, this](const One &one) {
-    const double found = value(one, event), number = one.condition.number;
-    switch (one.condition.is) {
-      case Is::less:
-        return found < number;
-      case Is::at_most:
-        return found <= number;
-      case Is::more:
-        return found > number;
-      case Is::at_least:
-        return found >= number;
-      case Is::equal:
-        return found == number;
-      case Is::different:
-        return found != number;
-    }
-    return false;
+    return one.condition.holds(value(one, event), one.condition.number);
   });
 }
 
 double EventConditions::least_size() const {
-  using Is = EventCondition::Is;
   double least = 0.0;
   for (const One &one : all_)
-    if (one.condition.column == "size" &&
-        (one.condition.is == Is::more || one.condition.is == Is::at_least))
+    if (one.condition.column == "size" && one.condition.from_below)
       least = std::max(least, one.condition.number);
   return least;
 }

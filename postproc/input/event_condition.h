@@ -18,10 +18,10 @@ namespace LSM::postproc {
 
 /// A column compared with a number.
 struct EventCondition {
-  enum class Is { less, at_most, more, at_least, equal, different };
   std::string column;
-  Is is = Is::equal;
+  bool (*holds)(double found, double number) = nullptr;
   double number = 0.0;
+  bool from_below = false;  ///< whether it leaves out all that is below the number
 };
 
 /// Reads a condition.

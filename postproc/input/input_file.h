@@ -26,19 +26,6 @@ std::unique_ptr<files::Bytes> open_input(const std::string &path);
 /// \throws std::runtime_error if its header has no driving velocity
 SlipHistoryReader open_history(const std::string &path, bool lenient);
 
-/// Calls `use`, and adds the path of the file to the message of a std::runtime_error about its
-/// records. A FileError has the path already.
-template <class Use>
-auto with_path(const std::string &path, Use &&use) {
-  try {
-    return use();
-  } catch (const FileError &) {
-    throw;
-  } catch (const std::runtime_error &error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
-}
-
 }  // namespace LSM::postproc
 
 #endif

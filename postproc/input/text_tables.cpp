@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "text_tables.h"
+#include "event_collector.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,6 @@
 #include "densities.h"
 #include "numbers.h"
 #include "packed_numbers.h"
-#include "page.h"
 #include "table.h"
 #include "thinner.h"
 
@@ -20,6 +19,19 @@ namespace LSM::postproc {
 using nlohmann::json;
 
 namespace {
+
+/// Returns the text with each {{key}} replaced by value(key).
+template <class Value>
+std::string filled(std::string_view text, const Value &value) {
+  std::string out;
+  for (std::size_t open = 0; (open = text.find("{{")) != std::string_view::npos;) {
+    const std::size_t close = text.find("}}", open);
+    out += text.substr(0, open);
+    out += value(text.substr(open + 2, close - open - 2));
+    text.remove_prefix(close + 2);
+  }
+  return out += text;
+}
 
 /// The elements of the page that hold its data. Small data are JSON. Each long column is packed in
 /// an element of its own, whose id is in the JSON.
@@ -155,7 +167,7 @@ static void to_json(json &out, const ThresholdResult &result) {
 namespace {
 
 std::vector<LogBin> densities_of(const EventTable &table) {
-  return table.size_step() > 0.0 ? size_density(table, DensitySettings()).bins
+  return table.size_step() > 0.0 ? size_density(table).bins
                                  : log_histogram(column(table.events, &Event::size));
 }
 
@@ -205,6 +217,11 @@ void ExploreSeries::thin(std::int64_t most) {
   }
   pe = std::move(some);
   times = std::move(some_times);
+}
+
+std::string_view head_of_page() {
+  const std::string_view page = page_file("explore.html");
+  return page.substr(0, page.find("<title>"));
 }
 
 std::string explore_html(const std::vector<ExploreRun> &runs, const ExploreSettings &settings) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "event_table.h"
@@ -53,6 +54,14 @@ struct ExploreSettings {
   double p_speed = 0.0, s_speed = 0.0;  ///< wave speeds, drawn over the slip
   std::string program;                  ///< name and version of the program
 };
+
+/// Returns a file that was compiled into the program: of output/explore or of the library that it
+/// uses.
+/// \throws std::logic_error if there is no such file
+std::string_view page_file(std::string_view name);
+
+/// How a page begins. Files that begin otherwise are not replaced.
+std::string_view head_of_page();
 
 /// Returns the whole page, which needs no other file and no network.
 /// \param runs at least one

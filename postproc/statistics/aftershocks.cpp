@@ -233,29 +233,6 @@ void report(const OmoriLaw &law, const Search &search, const Sequences &s, Omori
   if (search.background) fit.se_background = fit.background * covariance.error(x.size() - 1);
 }
 
-/// Counts the events outside all windows and measures that time.
-/// \param mains main shocks in order of time
-void count_quiet(const std::vector<EventSummary> &events, const SequenceRule &rule,
-                 const std::vector<EventSummary> &mains, Sequences &stack) {
-  if (events.empty()) return;
-  std::vector<std::pair<double, double>> windows;  // disjoint and ascending
-  for (const EventSummary &main : mains) {
-    const double from = main.t_start - rule.window, to = main.t_end + rule.window;
-    if (!windows.empty() && from <= windows.back().second)
-      windows.back().second = std::max(windows.back().second, to);
-    else
-      windows.emplace_back(from, to);
-  }
-  stack.quiet_time = events.back().t_start - events.front().t_start;
-  for (const auto &[from, to] : windows) stack.quiet_time -= to - from;
-  auto window = windows.begin();
-  for (const EventSummary &event : events) {
-    while (window != windows.end() && window->second < event.t_start) ++window;
-    const bool quiet = window == windows.end() || event.t_start < window->first;
-    stack.quiet_events += quiet && event.size >= rule.least_size;
-  }
-}
-
 }  // namespace
 
 Sequences stack_sequences(const std::vector<EventSummary> &events, const SequenceRule &rule) {
@@ -267,7 +244,6 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
   Sequences stack;
   stack.first = rule.first;
   stack.window = rule.window;
-  std::vector<EventSummary> mains;
   std::size_t earliest = 0;  // index of the first event in the window, which only moves forward
   double longest = 0.0;
   for (const EventSummary &event : events) longest = std::max(longest, event.t_end - event.t_start);
@@ -284,7 +260,6 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
                 (events[last].size == main.size && last > k);
     if (!largest) continue;
     ++stack.main_shocks;
-    mains.push_back(main);
     for (std::size_t i = earliest; i < last; ++i) {
       const EventSummary &other = events[i];
       // Which of two that start together came first is not known.
@@ -305,28 +280,7 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
   }
   std::sort(stack.times.begin(), stack.times.end());
   std::sort(stack.before.begin(), stack.before.end());
-  count_quiet(events, rule, mains, stack);
   return stack;
-}
-
-Measured Sequences::background() const {
-  const auto n = static_cast<double>(quiet_events);
-  return quiet_time > 0.0 ? Measured{n / quiet_time, std::sqrt(n) / quiet_time} : Measured{};
-}
-
-Measured Sequences::excess(std::size_t count) const {
-  const double exposure = static_cast<double>(main_shocks) * (window - first);
-  const auto n = static_cast<double>(count);
-  const Measured rate = background();
-  return {n - rate.value * exposure, std::sqrt(n + std::pow(rate.error * exposure, 2))};
-}
-
-Measured Sequences::after_to_before() const {
-  const Measured after = excess_after(), ahead = excess_before();
-  // The ratio to a number that is not significantly above 0 is meaningless.
-  if (!(ahead.value > 2.0 * ahead.error)) return {};
-  const double ratio = after.value / ahead.value;
-  return {ratio, std::hypot(after.error, ratio * ahead.error) / ahead.value};
 }
 
 double OmoriFit::rate(double t) const {

@@ -36,23 +36,6 @@ struct Sequences {
   std::vector<double> before;
   std::int64_t main_shocks = 0;
   double first = 0.0, window = 0.0;  ///< range of the times that are counted
-  /// Number of events outside the windows of all main shocks, and the length of that time.
-  std::int64_t quiet_events = 0;
-  double quiet_time = 0.0;
-
-  /// Rate of events far from main shocks.
-  /// \return NaN if no time lies outside the windows
-  Measured background() const;
-  /// Number of events in the windows after (before) main shocks in excess of the background.
-  Measured excess_after() const { return excess(times.size()); }
-  Measured excess_before() const { return excess(before.size()); }
-  /// Ratio of the two excesses: aftershocks per foreshock. The error is that of Poisson counts; the
-  /// scatter between catalogues is larger where a few main shocks have most of the aftershocks.
-  /// \return NaN unless the excess before main shocks exceeds twice its standard error
-  Measured after_to_before() const;
-
- private:
-  Measured excess(std::size_t count) const;
 };
 
 /// Finds the main shocks and stacks the events around them. A main shock is an event of at least

@@ -10,6 +10,7 @@
 
 #include "block_length.h"
 #include "monte_carlo.h"
+#include "sample.h"
 #include "samples.h"
 
 namespace LSM::postproc {
@@ -54,17 +55,12 @@ AgainstChance against(double value, std::vector<double> random) {
   return out;
 }
 
-/// Kolmogorov-Smirnov distance of the event times from a uniform distribution between the first and
-/// the last.
+// Kolmogorov-Smirnov distance of the event times from a uniform distribution between the first and
+// the last.
 double departure_of(const std::vector<double> &starts) {
-  const double n = static_cast<double>(starts.size()), from = starts.front();
-  double most = 0.0;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const double line = (starts[i] - from) / (starts.back() - from);
-    const double below = static_cast<double>(i) / n;
-    most = std::max({most, std::fabs(line - below), std::fabs(line - below - 1.0 / n)});
-  }
-  return most;
+  return Sample(starts).distance([from = starts.front(), to = starts.back()](double start) {
+    return (start - from) / (to - from);
+  });
 }
 
 }  // namespace

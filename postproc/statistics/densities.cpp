@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -11,16 +10,12 @@
 
 namespace LSM::postproc {
 
-SizeDensity size_density(const EventTable &table, const DensitySettings &settings) {
+SizeDensity size_density(const EventTable &table, const Threshold &threshold, double factor) {
   SizeDensity out;
   out.label = table.label;
   out.model = table.info.model;
   out.length = table.length();
-  const double least = settings.threshold.of(table).size;
-  if (!(least >= 0.0) || !(settings.upto > least))
-    throw std::invalid_argument(
-        fmt::format("{}: sizes from {} to {}: expected 0 <= lower end < upper end", table.label,
-                    least, settings.upto));
+  const double least = threshold.of(table).size;
   std::vector<double> sizes = column(table.events, &Event::size);
   if (sizes.empty()) return out;
   out.largest = *std::max_element(sizes.begin(), sizes.end());
@@ -30,20 +25,19 @@ SizeDensity size_density(const EventTable &table, const DensitySettings &setting
     const double unit = table.size_unit();
     const double smallest = std::max(least, *std::min_element(sizes.begin(), sizes.end()));
     const double first = std::ceil(std::log(smallest / unit) / step - magnitude_tolerance);
-    const double last = std::floor(std::log(settings.upto / unit) / step + magnitude_tolerance);
     const double edge = unit * std::exp((first - 0.5) * step);
-    const double together = std::max(1.0, std::round(std::log(settings.factor) / step));
+    const double together = std::max(1.0, std::round(std::log(factor) / step));
     out.bins = log_histogram(sizes, std::exp(together * step), edge,
-                             unit * std::exp((last + 0.5) * step), edge);
+                             std::numeric_limits<double>::infinity(), edge);
   } else {
-    out.bins = log_histogram(sizes, settings.factor, least, settings.upto);
+    out.bins = log_histogram(sizes, factor, least);
   }
   for (const LogBin &bin : out.bins) out.events += bin.count;
   return out;
 }
 
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
-                                        const DensitySettings &settings) {
+                                        const Threshold &threshold, double factor) {
   std::vector<SizeDensity> all;
   double least = std::numeric_limits<double>::infinity();
   bool any = false;
@@ -51,8 +45,8 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   std::size_t events = 0;
   expect_events(tables);
   for (const EventTable &table : tables) {
-    all.push_back(size_density(table, settings));
-    least = std::min(least, settings.threshold.of(table).size);
+    all.push_back(size_density(table, threshold, factor));
+    least = std::min(least, threshold.of(table).size);
     any = any || !all.back().bins.empty();
     for (const EventSummary &event : table.events) sizes.add(event.size);
     events += table.events.size();

@@ -15,14 +15,7 @@
 
 namespace LSM::postproc {
 
-/// Range and bins of densities of sizes.
-struct DensitySettings {
-  Threshold threshold;                                    ///< smallest size (model energy)
-  double upto = std::numeric_limits<double>::infinity();  ///< largest size
-  double factor = usual_bin_factor;                       ///< ratio of the edges of a bin
-};
-
-/// Density of the sizes of one catalogue. The limits of the range are in the unit of the catalogue.
+/// Density of the sizes of one catalogue.
 struct SizeDensity {
   std::string label, model;
   double length = 0.0;       ///< see EventTable::length()
@@ -33,14 +26,18 @@ struct SizeDensity {
 
 /// Bins the sizes of each catalogue. Where magnitudes are in bins of their own, a bin of sizes
 /// holds a whole number of these, the nearest to the factor, from the smallest size on: any others
-/// would hold now more, now fewer of them. \return densities in the order of the catalogues \throws
-/// std::invalid_argument for impossible settings \throws DegenerateData if no catalogue has an
-/// event in the range, or all sizes are equal
+/// would hold now more, now fewer of them.
+/// \param threshold smallest size
+/// \param factor ratio of the edges of a bin
+/// \return densities in the order of the catalogues
+/// \throws DegenerateData if no catalogue has an event of this size, or all sizes are equal
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
-                                        const DensitySettings &settings);
+                                        const Threshold &threshold,
+                                        double factor = usual_bin_factor);
 
 /// The same for one catalogue, which may have no events.
-SizeDensity size_density(const EventTable &table, const DensitySettings &settings);
+SizeDensity size_density(const EventTable &table, const Threshold &threshold = {},
+                         double factor = usual_bin_factor);
 
 /// Amplitude C of the density C s^-alpha of all events in the bins, for a law that was fitted to
 /// some of them.

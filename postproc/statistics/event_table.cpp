@@ -40,11 +40,6 @@ double EventTable::picker_memory() const {
   return model_time * dt * stride / -std::log(left);
 }
 
-double EventTable::share_in_events() const {
-  if (events.empty() || info.overlapping()) return NAN;
-  return in_events / (last_end - events.front().t_start);
-}
-
 std::vector<double> column_from(const EventTable &table, double least,
                                 double EventSummary::*number) {
   std::vector<double> out;

@@ -88,12 +88,6 @@ struct EventTable {
   /// sampling step over -ln(lambda), for 'average' the time with the same decay per step.
   /// \return NaN if no picker found the events or its memory has no length
   double picker_memory() const;
-
-  /// Share of the time from the first start to the end of the last event that lies within events.
-  /// Ruptures that happen at the same time in different places are one drop of the total PE and
-  /// hence one event: the longer the model, the larger this share and the more ruptures are merged.
-  /// \return NaN without events or where events may overlap (kinds other than drops of PE)
-  double share_in_events() const;
 };
 
 /// One member of each event, in the order of the events.

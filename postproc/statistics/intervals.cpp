@@ -50,18 +50,6 @@ GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times
   return fit;
 }
 
-std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory,
-                                      double mean) {
-  if (times.empty()) return {};
-  std::vector<double> cuts = {0.0, 0.05 * mean, 0.1 * mean, 0.2 * mean};
-  if (!std::isnan(memory))
-    for (const double memories : {0.5, 1.0, 2.5, 5.0, 10.0}) cuts.push_back(memories * memory);
-  std::sort(cuts.begin(), cuts.end());
-  std::vector<GammaOfCut> found;
-  for (const double cut : cuts) found.push_back({cut, fit_maximum_likelihood(times, cut, 1.0)});
-  return found;
-}
-
 namespace {
 
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const IntervalCurve &curve,
@@ -116,7 +104,6 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   if (!times.empty())
     curve.shortest = shortest_time(settings.shortest, curve.sample.memory, curve.fitted_mean());
   curve.fits = fits_of(times, curve, settings);
-  if (settings.cuts) curve.cuts = gamma_of_cuts(times, curve.sample.memory, curve.fitted_mean());
   return curve;
 }
 

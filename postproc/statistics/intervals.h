@@ -25,7 +25,6 @@ struct IntervalSettings {
   bool rescale = false;              ///< divide the times by their mean
   double factor = usual_bin_factor;  ///< ratio of the edges of a bin
   std::optional<double> shortest;    ///< see shortest_time()
-  bool cuts = false;                 ///< also compute gamma_of_cuts()
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< for the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
@@ -53,12 +52,6 @@ inline double shortest_time(std::optional<double> given, double memory, double m
   return given ? *given * mean : std::fmax(2.5 * memory, 0.05 * mean);
 }
 
-/// gamma for delta = 1, by maximum likelihood of the times from `cut` on.
-struct GammaOfCut {
-  double cut = 0.0;  ///< in the unit of the times
-  GeneralisedGammaFit fit;
-};
-
 /// One fit to the inter-event times of a curve.
 struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
@@ -67,6 +60,8 @@ struct IntervalFit {
   /// p_value() of the fit, NaN for a degenerate fit or without replicas. The error is that of the
   /// Monte Carlo estimate, NaN for least squares, which needs none.
   Measured p = {};
+
+  bool rejected() const { return p.value < 0.05; }
 };
 
 /// Describes the events used: "sizes >= 0.001", or "magnitudes >= 2" for earthquakes.
@@ -97,9 +92,8 @@ struct IntervalCurve {
   double burstiness() const { return burstiness_of(variation); }
   double shortest = 0.0;  ///< shortest_time() in the unit of the fitted times
   std::vector<IntervalFit> fits;
-  std::vector<GammaOfCut> cuts;  ///< in ascending order; empty unless requested
-  Clustering clustering;         ///< if requested, for times between any two events
-  Steadiness steadiness;         ///< under the same conditions
+  Clustering clustering;  ///< if requested, for times between any two events
+  Steadiness steadiness;  ///< under the same conditions
 
   /// Mean of the fitted times.
   double fitted_mean() const { return sample.rescaled ? 1.0 : mean; }
@@ -121,10 +115,6 @@ enum class FitMethod { maximum_likelihood, least_squares };
 GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times,
                               const std::vector<LogBin> &bins, std::optional<double> shortest,
                               double memory, double mean, double delta);
-
-/// gamma against the shortest time used, at these cuts: 0 (all times); 0.5, 1, 2.5, 5 and 10
-/// memories of the picker, if it has one; 0.05, 0.1 and 0.2 of the mean.
-std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory, double mean);
 
 /// Computes one curve for each catalogue and threshold.
 /// \throws std::invalid_argument for impossible settings

@@ -175,8 +175,7 @@ std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitud
       (!((*high - *low) / width < most) || !(std::fabs(*high) / width < 1e15)))
     throw std::invalid_argument("magnitudes from " + text::number(*low) + " to " +
                                 text::number(*high) + " in bins of " + text::number(width) +
-                                ", expected fewer than 1e5 bins: a smaller --magnitude-slope or "
-                                "wider bins");
+                                ", expected fewer than 1e5 bins");
   for (const double m : magnitudes)
     ++counts[static_cast<std::int64_t>(bin_of(m - bins.offset, width))];
   std::vector<MagnitudeCount> out;

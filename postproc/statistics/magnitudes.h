@@ -18,11 +18,11 @@
 
 namespace LSM::postproc {
 
-/// M = slope log10(size) + constant. The slope of 2/3 is that between magnitude and the logarithm
-/// of radiated energy or seismic moment. The constant is free, as the models have no unit of
+/// M = (2/3) log10(size) + constant. The slope is that between magnitude and the logarithm of
+/// radiated energy or seismic moment. The constant is free, as the models have no unit of
 /// energy.
 struct MagnitudeScale {
-  double slope = 2.0 / 3.0;
+  static constexpr double slope = 2.0 / 3.0;
   double constant = 0.0;
   /// Magnitude of an event; size > 0.
   double of(double size) const;

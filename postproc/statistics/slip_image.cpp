@@ -83,7 +83,8 @@ SlipImage slip_image(SlipHistoryReader &reader, double from, double to, int most
   const FaultGrid &grid = image.info.grid;
   if (grid.plane)
     throw std::runtime_error(
-        "slip history of a plane, expected that of a line (lsm.ruptures draws maps of planes)");
+        reader.path() +
+        ": slip history of a plane, expected that of a line (lsm.ruptures draws maps of planes)");
   image.bins_per_column = (grid.bins + most_columns - 1) / most_columns;
   image.columns = (grid.bins + image.bins_per_column - 1) / image.bins_per_column;
   image.records_per_row = static_cast<int>(
@@ -97,7 +98,8 @@ SlipImage slip_image(SlipHistoryReader &reader, double from, double to, int most
     rows.add(record);
   }
   rows.end_row();
-  if (image.ends.empty()) throw std::runtime_error("nothing in the window of time");
+  if (image.ends.empty())
+    throw std::runtime_error(reader.path() + ": nothing in the window of time");
   return image;
 }
 

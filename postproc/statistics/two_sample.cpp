@@ -114,7 +114,7 @@ int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
 }  // namespace
 
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
-                              int replicas, std::uint64_t seed, int block) {
+                              int replicas, std::uint64_t seed) {
   for (const std::vector<double> *sample : {&first, &second})
     if (sample->size() < 10)
       throw std::invalid_argument("two-sample test of " + std::to_string(sample->size()) +
@@ -123,8 +123,8 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
   const std::size_t n = first.size() + second.size();
   Classes classes(first, second, n);
-  const bool by_classes = block == 0 && n > 2 * largest_exact_sample;
-  if (block == 0) block = usual_block(classes, first.size(), n);
+  const bool by_classes = n > 2 * largest_exact_sample;
+  int block = usual_block(classes, first.size(), n);
   // Longer blocks are just as valid.
   if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
   test.block = block;

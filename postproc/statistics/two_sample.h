@@ -30,17 +30,15 @@ struct TwoSampleTest {
 /// values are permuted between the series; permuting single values would reject too often for
 /// autocorrelated series.
 ///
-/// For more than 16384 values in both series together (and block = 0), at most 2048 blocks are
-/// used, and p is computed from distances evaluated at 511 ranks only, both for the series and for
-/// their divisions; test.distance is exact.
+/// A block has the longer of the two block_length() of the ranks. For more than 16384 values in
+/// both series together, at most 2048 blocks are used, and p is computed from distances evaluated
+/// at 511 ranks only, both for the series and for their divisions; test.distance is exact.
 ///
 /// \param first, second positive values in order of time
 /// \param replicas number of random divisions, at least 1
-/// \param block number of values in a block, at least 1; 0: the longer of the two block_length() of
-/// the ranks; with a length given, the cost of a division grows with the number of values
 /// \throws std::invalid_argument for fewer than 10 values in a series
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
-                              int replicas, std::uint64_t seed, int block = 0);
+                              int replicas, std::uint64_t seed);
 
 }  // namespace LSM::postproc
 

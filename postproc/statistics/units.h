@@ -5,6 +5,8 @@
 #ifndef LSM_POSTPROC_UNITS_H
 #define LSM_POSTPROC_UNITS_H
 
+#include <cmath>
+
 #include "magnitudes.h"
 
 namespace LSM::postproc {
@@ -34,12 +36,16 @@ struct ModelUnits {
 /// Moment magnitude Mw = (2/3) (log10 M0 - 9.1), M0 in N m (Hanks & Kanamori 1979, J. Geophys. Res.
 /// 84, 2348, with IASPEI's constant).
 /// \param unit N m per unit of the moments to be converted
-MagnitudeScale moment_magnitude(double unit);
+inline MagnitudeScale moment_magnitude(double unit) {
+  return {MagnitudeScale::slope * (std::log10(unit) - 9.1)};
+}
 /// Energy magnitude Me = (2/3) (log10 E - 4.4), E in J (Choy & Boatwright 1995, J. Geophys. Res.
 /// 100, 18205). It is an upper limit: their E is the radiated energy, whereas a drop of PE also
 /// contains the work of friction.
 /// \param unit J per unit of the energies to be converted
-MagnitudeScale energy_magnitude(double unit);
+inline MagnitudeScale energy_magnitude(double unit) {
+  return {MagnitudeScale::slope * (std::log10(unit) - 4.4)};
+}
 
 }  // namespace LSM::postproc
 

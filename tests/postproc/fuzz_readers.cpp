@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -319,35 +320,36 @@ class Mutator {
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_.next() % n; }
 
   void mutate(std::string &text, const std::vector<std::string> &others) {
-    static const std::vector<std::string> tokens = {"nan",
-                                                    "inf",
-                                                    "-inf",
-                                                    "1e999",
-                                                    "1e-999",
-                                                    "-",
-                                                    ",",
-                                                    ",,",
-                                                    "\n",
-                                                    "\r\n",
-                                                    "\n\n",
-                                                    "#",
-                                                    "# ",
-                                                    " = ",
-                                                    "=",
-                                                    "0",
-                                                    "-1",
-                                                    "9223372036854775807",
-                                                    "-9223372036854775808",
-                                                    "1e308",
-                                                    "-1e308",
-                                                    "# model = lsm\n",
-                                                    "# dt = 0\n",
-                                                    "slip_moment",
-                                                    ",slip_moment",
-                                                    "# lsm-catalogue 2",
-                                                    "lsm-pe-series-1\n",
-                                                    std::string(1, '\0'),
-                                                    std::string(8, '\xff')};
+    using namespace std::string_view_literals;
+    constexpr std::string_view tokens[] = {"nan"sv,
+                                           "inf"sv,
+                                           "-inf"sv,
+                                           "1e999"sv,
+                                           "1e-999"sv,
+                                           "-"sv,
+                                           ","sv,
+                                           ",,"sv,
+                                           "\n"sv,
+                                           "\r\n"sv,
+                                           "\n\n"sv,
+                                           "#"sv,
+                                           "# "sv,
+                                           " = "sv,
+                                           "="sv,
+                                           "0"sv,
+                                           "-1"sv,
+                                           "9223372036854775807"sv,
+                                           "-9223372036854775808"sv,
+                                           "1e308"sv,
+                                           "-1e308"sv,
+                                           "# model = lsm\n"sv,
+                                           "# dt = 0\n"sv,
+                                           "slip_moment"sv,
+                                           ",slip_moment"sv,
+                                           "# lsm-catalogue 2"sv,
+                                           "lsm-pe-series-1\n"sv,
+                                           "\0"sv,
+                                           "\xff\xff\xff\xff\xff\xff\xff\xff"sv};
     const std::size_t at = below(text.size() + 1);
     switch (below(9)) {
       case 0:
@@ -360,7 +362,7 @@ class Mutator {
         text.erase(at, below(below(2) ? 4 : 200));
         break;
       case 3:
-        text.insert(at, tokens[below(tokens.size())]);
+        text.insert(at, tokens[below(std::size(tokens))]);
         break;
       case 4:
         text.resize(at);

@@ -113,35 +113,20 @@ EventTable poisson(int n, double mean, unsigned long seed) {
   return events(starts, durations, sizes);
 }
 
-// p and the ratio of aftershocks to foreshocks are those of the sequences and not those of the
-// background, which has three times as many events in the windows.
+// p is that of the sequences and not that of the background, which has three times as many events
+// in the windows.
 TEST(Aftershocks, BackgroundIsTakenOff) {
   const SequenceRule rule{50.0, 0.5, 100.0, 0.0};
-  double p = 0.0, p_variance = 0.0, mean = 0.0, variance = 0.0;
-  double raw = 0.0;
-  int within = 0;
+  double p = 0.0, p_variance = 0.0;
   constexpr int catalogues = 30;
   for (unsigned long seed = 1; seed <= catalogues; ++seed) {
     const EventTable table = sequences_on_background(200, 12.0, 1.2, 0.3, seed);
     const Sequences s = stack_sequences(table.events, rule);
     EXPECT_EQ(s.main_shocks, 200);
-    EXPECT_NEAR(s.quiet_time, 200 * 800.0, 2500.0);
-    const Measured background = s.background();
-    EXPECT_NEAR(background.value, 0.3, 5.0 * background.error);
-    EXPECT_NEAR(s.excess_after().value, 2400.0, 5.0 * s.excess_after().error);
-    const Measured ratio = s.after_to_before();
-    within += std::fabs(ratio.value - 2.0) < ratio.error;
-    raw += static_cast<double>(s.times.size()) / static_cast<double>(s.before.size()) / catalogues;
-    mean += ratio.value / catalogues;
-    variance += std::pow(ratio.error / catalogues, 2);
     const OmoriFit fit = fit_omori(s, 1.0);
     p += fit.p / catalogues;
     p_variance += std::pow(fit.se_p / catalogues, 2);
   }
-  EXPECT_LT(raw, 1.3);
-  EXPECT_NEAR(mean, 2.0, 4.0 * std::sqrt(variance));
-  EXPECT_LT(std::sqrt(variance), 0.1);
-  EXPECT_GE(within, 14);  // 68 % of 30, less three standard errors
   EXPECT_NEAR(p, 1.2, 4.0 * std::sqrt(p_variance));
   EXPECT_LT(std::sqrt(p_variance), 0.03);
 }

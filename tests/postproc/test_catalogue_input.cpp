@@ -60,7 +60,6 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
   EXPECT_EQ(ends(table), (std::vector<double>{4, 3, 3}));
   EXPECT_EQ(sizes(table), (std::vector<double>{0.125, 0.5, 0.25}));
   EXPECT_EQ(table.last_end, 4.0);
-  EXPECT_TRUE(std::isnan(table.share_in_events()));
 }
 
 TEST_F(CatalogueInput, TimesAsTheWayOfThePlate) {
@@ -85,7 +84,6 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   }());
   EXPECT_EQ(sizes(all), (std::vector<double>{0.5, 1e-5, 0.25, -0.125}));
   EXPECT_EQ(starts(all), (std::vector<double>{1, 3, 5, 7}));
-  EXPECT_EQ(all.share_in_events(), 4.0 / 7.0);
 
   CatalogueOptions options;
   options.min_size = 1e-4;

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "packed_numbers.h"
-#include "page.h"
 #include "size_fits.h"
 #include "unit_files.h"
 
@@ -157,7 +156,7 @@ class SlipImages : public unit::Files {
   template <class... Window>
   static SlipImage image_of(const std::string &path, Window... window) {
     SlipHistoryReader reader = open_history(path, false);
-    return with_path(path, [&] { return slip_image(reader, window...); });
+    return slip_image(reader, window...);
   }
 };
 

@@ -328,9 +328,9 @@ def test_histogram_has_whole_bins_of_magnitudes(postproc, work):
     assert [count for _, _, count in found] == [k.count(bin) for bin in range(20, max(k) + 1)]
     assert all(hi / lo == pytest.approx(10**0.15) for lo, hi, _ in found)
     assert found[0][0] == pytest.approx(10**(1.5 * 1.95))
-    # A range may begin below the paper's threshold of 1e-4.
+    # A threshold may be below the paper's threshold of 1e-4.
     quakes("small.csv", gutenberg_richter(500, 0.1, least=-4))
-    run(postproc, "histograms small.csv --range M-4:M0 --no-picture -o h --overwrite")
+    run(postproc, "histograms small.csv --threshold M-4 --no-picture -o h --overwrite")
     assert float(table("h.csv")[0]["bin_lo"]) == pytest.approx(10**(1.5 * -4.05))
 
 

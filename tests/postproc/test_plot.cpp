@@ -16,7 +16,6 @@
 #include "new_file.h"
 #include "numbers.h"
 #include "options.h"
-#include "page.h"
 #include "plot.h"
 #include "unit_files.h"
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, read_series, rows, same_bytes, table, unknown_keys,
+from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, rows, same_bytes, table, unknown_keys,
                         write_catalogue, write_series)
 from programs import SOURCE, Program, refused, run, start
 
@@ -189,15 +189,6 @@ def test_series(do, no):
         if 30 <= time[n] <= 60:
             wanted.append((time[n], pe[n], x, change))
     assert len(wanted) > 900 and numbers("part.csv", 4) == wanted
-    # The samples of the window as text, to the last digit.
-    do("series pe.bin -o part --no-picture --from 30 --to 60 --export samples.csv")
-    said = header("samples.csv")
-    assert said["dt"] == "0.029999999999999999" and {**said, "dt": 0
-                                                     } == {key: str(value)
-                                                           for key, value in {**read_series("pe.bin")[0], "dt": 0}.items()} | {"dt": 0}
-    assert Path("samples.csv").read_text().startswith("# PE series\n")
-    assert numbers("samples.csv", 3) == [row for row in zip(*made) if 30 <= row[1] <= 60]
-    no("is read by this command", "series pe.bin --no-picture -o x --export pe.bin")
     no("expected --from before --to", "series pe.bin --from 5 --to 5 --no-picture -o x")
     no("pe.bin: 0 samples in the window of time, expected at least 3", "series pe.bin --from 1e6 -o x")
     no("columns", "series pe.bin --columns 2 -o x")
@@ -294,11 +285,10 @@ def test_export(do, no):
 0,0,0,2000-01-01T00:00:02.000000,-2,2,0,1,0.001,M
 0,0,0,2000-01-02T00:00:00.250000,2,3,0,0.75,1000,M
 0,0,0,2000-01-02T00:00:04.000001,-4,6,0,0.9999995,1e-06,M""".splitlines()
-    do("export c.csv -o p.csv --format csep --magnitude-constant 4.5 --time-unit day --start-date 1999-12-31T12:00:00",
-       "--degrees-per-length 0.5 --to 1000 --min-size -10")
+    do("export c.csv -o p.csv --format csep --magnitude-constant 4.5 --time-unit day --start-date 1999-12-31T12:00:00", "--to 1000 --min-size -10")
     assert Path("p.csv").read_text() == """lon,lat,mag,time_string,depth,catalog_id,event_id
-5,0,4.5,1999-12-31T12:00:00.000000,0,0,1
-10,0,2.5,2000-01-02T12:00:00.000000,0,0,2
+0,0,4.5,1999-12-31T12:00:00.000000,0,0,1
+0,0,2.5,2000-01-02T12:00:00.000000,0,0,2
 """
     do("export c.csv -o half.csv --time-unit second --start-date 2000-01-01T00:00:00.75 --magnitude-constant 0")
     assert table("half.csv")[0]["time"] == "2000-01-01T00:00:00.750000"
@@ -309,8 +299,6 @@ def test_export(do, no):
     for date in "2000-13-01", "2001-02-29", "yesterday", "2000-01-01T12":
         no(f"start-date '{date}': expected a date", "export c.csv -o x.csv --start-date " + date)
     no("time-unit", "export c.csv -o x.csv --time-unit -1")
-    without_column("c.csv", "plain.csv")
-    no("plain.csv: has no column x_centroid", "export plain.csv -o x.csv --degrees-per-length 1")
 
 
 def gutenberg_richter(path="gr.csv"):

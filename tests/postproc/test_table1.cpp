@@ -39,9 +39,10 @@ EventTable gamma_events(double shape, double scale, int n) {
   return events(starts, std::vector<double>(starts.size(), 1.0));
 }
 
-const Table1Row *row_with(const std::vector<Table1Row> &rows, const std::string &method) {
-  for (const Table1Row &row : rows)
-    if (row.method == method) return &row;
+/// The fit of the first curve with delta = 1.
+const IntervalFit *fit_by(const std::vector<IntervalCurve> &curves, const std::string &method) {
+  for (const IntervalFit &fit : curves.at(0).fits)
+    if (fit.method == method && fit.held == 1.0) return &fit;
   return nullptr;
 }
 
@@ -170,7 +171,6 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
   IntervalSettings settings;
   settings.thresholds = {0.0};
   settings.replicas = 0;
-  settings.cuts = true;
   const auto shortest = [&](const LSM::files::Parameters &header) {
     table.info.parameters = header;
     return interval_curves({table}, settings)[0].shortest;
@@ -190,19 +190,8 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
 
   table.info.parameters = {{"dt", "0.1"}, {"lambda", lambda}};
   const IntervalCurve curve = interval_curves({table}, settings)[0];
-  ASSERT_EQ(curve.cuts.size(), 9u);
-  // The cuts include none (all times) and the one that is quoted; least squares uses all bins.
-  EXPECT_EQ(curve.cuts[0].cut, 0.0);
   EXPECT_EQ(curve.fits[0].method, "maximum likelihood");
   EXPECT_EQ(curve.fits[0].held, 1.0);
-  int used = 0;
-  for (const GammaOfCut &one : curve.cuts)
-    if (one.cut == curve.shortest) {
-      ++used;
-      EXPECT_EQ(one.fit.gamma, curve.fits[0].fit.gamma);
-    }
-  EXPECT_EQ(used, 1);
-  EXPECT_TRUE(contains(cuts_table({curve}).csv(), ",used,"));
   EXPECT_EQ(curve.fits[1].method, "least squares");
   EXPECT_LT(curve.fits[1].fit.lo, 0.5);
 }
@@ -215,9 +204,8 @@ TEST(Table1, PrintedValuesAsInThePaper) {
   EXPECT_TRUE(contains(csv, "printed,,,0.67,,0.98,,1.58,,0.50,,,,,,,seismicity (Corral 2004),"));
   EXPECT_TRUE(contains(csv, "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,,,LSM,"));
   EXPECT_TRUE(contains(csv, "printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,"));
-  Table1Row ours;
-  ours.source = "made up";
-  const std::string text = table1({ours}, false).text();
+  const std::string text =
+      table1(interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, {}), false).text();
   EXPECT_LT(text.find("  printed"), text.find("Block-Slider"));
   EXPECT_LT(text.find("Block-Slider"), text.find("  ours"));
 }
@@ -238,17 +226,18 @@ TEST(Table1, GammaTimesGiveTheirParameters) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].n, 20000);
   EXPECT_NEAR(curves[0].mean, shape * scale, 5.0 * std::sqrt(shape) * scale / std::sqrt(20000.0));
-  const auto rows = table1_rows(curves);
-  const Table1Row *const row = row_with(rows, "maximum likelihood, δ = 1 held");
-  ASSERT_NE(row, nullptr);
-  ASSERT_EQ(row->why, "");
-  const double C = 1.0 / (std::pow(scale, shape) * std::tgamma(shape));
-  const auto &[gamma, delta, B, fitted_C] = row->parameters;
-  EXPECT_NEAR(gamma.value, shape, 4.0 * gamma.error);
-  EXPECT_NEAR(B.value, scale, 4.0 * B.error);
-  EXPECT_NEAR(fitted_C.value, C, 4.0 * fitted_C.error);
-  EXPECT_LT(gamma.error, 0.02);
-  EXPECT_EQ(delta.value, 1.0);
+  const IntervalFit *const found = fit_by(curves, "maximum likelihood");
+  ASSERT_NE(found, nullptr);
+  const GeneralisedGammaFit &fit = found->fit;
+  ASSERT_EQ(fit.why, "");
+  EXPECT_NEAR(fit.gamma, shape, 4.0 * fit.se_gamma);
+  EXPECT_NEAR(fit.B, scale, 4.0 * fit.se_B);
+  EXPECT_NEAR(fit.C, 1.0 / (std::pow(scale, shape) * std::tgamma(shape)), 4.0 * fit.se_C);
+  EXPECT_LT(fit.se_gamma, 0.02);
+  EXPECT_EQ(fit.delta, 1.0);
+  EXPECT_TRUE(contains(table1(curves, false).csv(), "ours,0.0001," + std::to_string(fit.n) + "," +
+                                                        LSM::text::number(fit.gamma) + "," +
+                                                        LSM::text::number(fit.se_gamma) + ",1,0,"));
 }
 
 TEST(Table1, PoorFitsAreRejected) {
@@ -256,38 +245,38 @@ TEST(Table1, PoorFitsAreRejected) {
   settings.shortest = 0.0;
   settings.deltas = {1.0};
   settings.replicas = 100;
-  const auto good = table1_rows(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
+  const auto good = interval_curves({gamma_events(0.7, 20.0, 5000)}, settings);
   // Two clusters of times are no gamma density.
   std::vector<double> starts = {0.0};
   for (int i = 0; i < 2000; ++i)
     starts.push_back(starts.back() +
                      (i % 2 ? 1.0 : 100.0) * (1.0 + 0.5 * ((i * 7919) % 2000) / 2e3));
-  const auto poor = table1_rows(
-      interval_curves({events(starts, std::vector<double>(starts.size(), 1.0))}, settings));
-  const char *const method = "maximum likelihood, δ = 1 held";
-  ASSERT_NE(row_with(good, method), nullptr);
-  ASSERT_NE(row_with(poor, method), nullptr);
-  EXPECT_FALSE(row_with(good, method)->rejected());
-  EXPECT_GT(row_with(good, method)->p.value, 0.05);
-  EXPECT_GT(row_with(good, method)->p.error, 0.01);
-  EXPECT_LT(row_with(good, method)->ks, 0.1);
-  EXPECT_TRUE(row_with(poor, method)->rejected());
-  EXPECT_EQ(row_with(poor, method)->p.value, 1.0 / 101.0);
+  const auto poor =
+      interval_curves({events(starts, std::vector<double>(starts.size(), 1.0))}, settings);
+  const char *const method = "maximum likelihood";
+  ASSERT_NE(fit_by(good, method), nullptr);
+  ASSERT_NE(fit_by(poor, method), nullptr);
+  EXPECT_FALSE(fit_by(good, method)->rejected());
+  EXPECT_GT(fit_by(good, method)->p.value, 0.05);
+  EXPECT_GT(fit_by(good, method)->p.error, 0.01);
+  EXPECT_LT(fit_by(good, method)->fit.ks, 0.1);
+  EXPECT_TRUE(fit_by(poor, method)->rejected());
+  EXPECT_EQ(fit_by(poor, method)->p.value, 1.0 / 101.0);
   EXPECT_TRUE(contains(table1(poor, false).text(), "rejected: p below 0.05"));
   EXPECT_TRUE(contains(table1(poor, false).csv(), ",yes,made up,\"maximum likelihood"));
   EXPECT_TRUE(contains(table1(good, false).csv(), ",no,made up,\"maximum likelihood"));
-  const Table1Row *const binned = row_with(good, "least squares, δ = 1 held");
+  const IntervalFit *const binned = fit_by(good, "least squares");
   ASSERT_NE(binned, nullptr);
-  EXPECT_TRUE(std::isnan(binned->ks));
-  EXPECT_GT(binned->misfit, 0.0);
+  EXPECT_TRUE(std::isnan(binned->fit.ks));
+  EXPECT_GT(binned->fit.chi2, 0.0);
   EXPECT_TRUE(std::isfinite(binned->p.value));
   EXPECT_TRUE(std::isnan(binned->p.error));
 
   // Without replicas there is no statement about the law.
   settings.replicas = 0;
-  const auto quick = table1_rows(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
-  EXPECT_TRUE(std::isnan(row_with(quick, method)->p.value));
-  EXPECT_FALSE(row_with(quick, method)->rejected());
+  const auto quick = interval_curves({gamma_events(0.7, 20.0, 5000)}, settings);
+  EXPECT_TRUE(std::isnan(fit_by(quick, method)->p.value));
+  EXPECT_FALSE(fit_by(quick, method)->rejected());
   EXPECT_TRUE(contains(table1(quick, false).csv(), ",,,,made up,\"maximum likelihood"));
 }
 
@@ -326,22 +315,20 @@ TEST(Table1, RescaledTimesHaveMeanOne) {
   settings.rescale = true;
   settings.replicas = 0;
   const auto curves = interval_curves({gamma_events(0.7, 20.0, 20000)}, settings);
-  const auto rows = table1_rows(curves);
-  const Table1Row *const row = row_with(rows, "maximum likelihood, δ = 1 held");
-  ASSERT_NE(row, nullptr);
+  const IntervalFit *const found = fit_by(curves, "maximum likelihood");
+  ASSERT_NE(found, nullptr);
   // The fitted mean gamma B of a gamma density is that of the sample.
-  EXPECT_NEAR(row->parameters[0].value * row->parameters[2].value, 1.0, 1e-5);
+  EXPECT_NEAR(found->fit.gamma * found->fit.B, 1.0, 1e-5);
 }
 
 TEST(Table1, DegenerateFitsSayWhyAndShowNoNumbers) {
-  IntervalSettings settings;
-  const auto rows =
-      table1_rows(interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, settings));
-  ASSERT_EQ(rows.size(), 4u);
-  for (const Table1Row &row : rows) {
-    EXPECT_NE(row.why, "");
-    for (const Measured &parameter : row.parameters) EXPECT_TRUE(std::isnan(parameter.value));
-    EXPECT_TRUE(contains(table1(rows, false).text(), row.why));
+  const auto curves = interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, {});
+  ASSERT_EQ(curves[0].fits.size(), 4u);
+  for (const IntervalFit &one : curves[0].fits) {
+    EXPECT_NE(one.fit.why, "");
+    for (const double parameter : {one.fit.gamma, one.fit.delta, one.fit.B, one.fit.C})
+      EXPECT_TRUE(std::isnan(parameter));
+    EXPECT_TRUE(contains(table1(curves, false).text(), one.fit.why));
   }
 }
 

@@ -78,6 +78,7 @@ files::Parameters numbers_of(const Info &info) {
 template <class Info>
 class RecordReader {
  public:
+  const std::string &path() const { return in_->path(); }
   const Info &info() const { return info_; }
   std::int64_t records() const { return total_; }  ///< of a file, or at the end of a pipe
   bool torn() const { return torn_; }              ///< a truncated last record is dropped

@@ -8,7 +8,7 @@
 /// and double pe; everything little-endian. time = time0 + (step - step0) dt.
 ///
 /// If steps and time are not proportional (fix lsm/leap), the header has "times = own", and a
-/// record is int64 step, double time, double pe. `postproc series --export` makes a text of it.
+/// record is int64 step, double time, double pe.
 #ifndef LSM_PE_SERIES_H
 #define LSM_PE_SERIES_H
 

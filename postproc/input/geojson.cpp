@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "event_documents.h"
+#include "event_collector.h"
 
 #include <fmt/format.h>
 
