@@ -303,8 +303,7 @@ def test_equal_times_and_sizes_of_0(postproc, work):
 
 def test_numbers_beyond_all_reason(postproc, work):
     write_catalogue("model.csv", pareto(300))
-    for option in "--magnitude-slope 1e5", "--magnitude-bin 1e-9", "--magnitude-slope 1e300":
-        refused(postproc, f"magnitudes model.csv --no-picture {option}", "expected fewer than 1e5 bins", timeout=HOSTILE)
+    refused(postproc, "magnitudes model.csv --no-picture --magnitude-bin 1e-9", "expected fewer than 1e5 bins", timeout=HOSTILE)
     names = []
     for k, length in enumerate((120, 240, 480, 945)):
         names.append(f"big{k}.csv")
