@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // postproc: from catalogues and potential energy series to the paper's figures and Table 1.
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -13,7 +10,6 @@
 
 #include "command.h"
 #include "files/text.h"
-#include "monte_carlo.h"
 #include "standard_streams.h"
 
 namespace {
@@ -31,37 +27,11 @@ int fail(std::string what) {
   return 1;
 }
 
-/// Shows on a terminal the progress of a long Monte Carlo test.
-class Progress {
- public:
-  void operator()(int done, int count) {
-    const auto now = Clock::now();
-    if (done == 1) {
-      begin_ = printed_ = now;
-      shown_ = false;
-    }
-    if (done == count && shown_) {
-      fmt::print(stderr, "\r\033[K");
-    } else if (now - begin_ > std::chrono::seconds(1) &&
-               now - printed_ > std::chrono::milliseconds(200)) {
-      fmt::print(stderr, "\rMonte Carlo replica {} of {}", done, count);
-      shown_ = true;
-      printed_ = now;
-    }
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_, printed_;
-  bool shown_ = false;
-};
-
 }  // namespace
 
 int main(int argc, char **argv) {
   using namespace LSM::postproc;
   LSM::occupy_standard_streams();
-  if (isatty(STDERR_FILENO)) watch_replicas(Progress());
   try {
     CLI::App app(description, "postproc");
     LSM::set_up(app, "postproc " POSTPROC_VERSION);

@@ -27,15 +27,11 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   table.show("counted from", [](auto &line) { return line.rule.first; });
   table.column("events", "events after main shocks", [](auto &line) { return line.fit.n; });
   table.show("events as long before", [](auto &line) { return line.sequences.before.size(); });
-  table.column("constant", "constant rate", [](auto &line) {
-    return Measured{line.fit.constant, line.fit.se_constant};
-  });
-  table.column("p", "p", [](auto &line) { return Measured{line.fit.p, line.fit.se_p}; });
-  table.column("c", "c", [](auto &line) { return Measured{line.fit.c, line.fit.se_c}; });
-  table.column("K", "K", [](auto &line) { return Measured{line.fit.K, line.fit.se_K}; });
-  table.column("background", "background", [](auto &line) {
-    return Measured{line.fit.background, line.fit.se_background};
-  });
+  table.column("constant", "constant rate", [](auto &line) { return line.fit.constant; });
+  table.column("p", "p", [](auto &line) { return line.fit.p; });
+  table.column("c", "c", [](auto &line) { return line.fit.c; });
+  table.column("K", "K", [](auto &line) { return line.fit.K; });
+  table.column("background", "background", [](auto &line) { return line.fit.background; });
   table.show("degenerate", [](auto &line) { return line.fit.why; });
   table.column("likelihood_ratio", "2 ln L ratio against a constant rate",
                [](auto &line) { return line.fit.likelihood_ratio; });
@@ -88,7 +84,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events, {} main shocks)", curve.label, a.fit.n,
                          a.sequences.main_shocks));
-    const auto exact = [](double value) { return text::number(value); };
+    const auto exact = [](const Measured &number) { return text::number(number.value); };
     const OmoriFit &fit = a.fit;
     plot.add_law(a.bins.front().lo, a.bins.back().hi,
                  fit.degenerate ? exact(fit.constant)

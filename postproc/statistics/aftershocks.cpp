@@ -223,14 +223,12 @@ void report(const OmoriLaw &law, const Search &search, const Sequences &s, Omori
     return;
   }
   fit.degenerate = false;
-  fit.K = std::exp(x[0]);
-  fit.se_K = fit.K * covariance.error(0);
-  fit.p = law.p;
-  fit.se_p = covariance.error(1);
-  fit.c = law.c;
-  fit.se_c = held ? 0.0 : law.c * covariance.error(2);
-  fit.background = (1.0 - law.share) * n / (shocks * (s.window - s.first));
-  if (search.background) fit.se_background = fit.background * covariance.error(x.size() - 1);
+  fit.K = {std::exp(x[0]), std::exp(x[0]) * covariance.error(0)};
+  fit.p = {law.p, covariance.error(1)};
+  fit.c = {law.c, held ? 0.0 : law.c * covariance.error(2)};
+  const double background = (1.0 - law.share) * n / (shocks * (s.window - s.first));
+  fit.background = {background,
+                    search.background ? background * covariance.error(x.size() - 1) : NAN};
 }
 
 }  // namespace
@@ -284,7 +282,7 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
 }
 
 double OmoriFit::rate(double t) const {
-  return degenerate ? constant : K * std::pow(t + c, -p) + background;
+  return degenerate ? constant.value : K.value * std::pow(t + c.value, -p.value) + background.value;
 }
 
 OmoriFit fit_omori(const Sequences &s, double hold_c) {
@@ -294,10 +292,8 @@ OmoriFit fit_omori(const Sequences &s, double hold_c) {
   OmoriFit fit;
   fit.n = static_cast<std::int64_t>(s.times.size());
   const double exposure = static_cast<double>(s.main_shocks) * (s.window - s.first);
-  if (fit.n > 0) {
-    fit.constant = static_cast<double>(fit.n) / exposure;
-    fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / exposure;
-  }
+  const auto n = static_cast<double>(fit.n);
+  if (fit.n > 0) fit.constant = {n / exposure, std::sqrt(n) / exposure};
   if (fit.n < fewest_aftershocks)
     return without_numbers(fit, std::to_string(fit.n) + " events after " +
                                     std::to_string(s.main_shocks) + " main shocks, at least " +

@@ -49,14 +49,14 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
 /// Omori-Utsu law fitted to a stack: n(t) = K (t + c)^-p + background events per time and main
 /// shock.
 struct OmoriFit {
-  double K = NAN, se_K = K;
-  double c = K, se_c = K;  ///< model time; its error is 0 if c was held
-  double p = K, se_p = K;
-  double background = K, se_background = K;  ///< NaN error: the best value is 0, on the boundary
-  std::int64_t n = 0;                        ///< number of events
-  double constant = K, se_constant = K;      ///< rate of the constant law; known whenever n > 0
+  Measured K;
+  Measured c;  ///< model time; its error is 0 if c was held
+  Measured p;
+  Measured background;  ///< NaN error: the best value is 0, on the boundary
+  std::int64_t n = 0;   ///< number of events
+  Measured constant;    ///< rate of the constant law; known whenever n > 0
   /// Twice the gain in ln L over a constant rate, not negative.
-  double likelihood_ratio = K;
+  double likelihood_ratio = NAN;
   /// Only the constant rate is given if there are fewer than 20 events; the likelihood ratio is
   /// below 7.81 (the 95 % point of chi square for the 3 additional parameters; 5.99 for 2, with c
   /// held); c lies at an end of its range, from 1e-3 of the first time to the window; p is not

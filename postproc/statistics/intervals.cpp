@@ -31,39 +31,26 @@ int shuffles_for(std::size_t times) {
       std::clamp<std::size_t>(20'000'000 / std::max<std::size_t>(times, 1), 19, 200));
 }
 
-GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times,
-                              const std::vector<LogBin> &bins, std::optional<double> shortest,
-                              double memory, double mean, double delta) {
-  const double least = times.empty() ? 0.0 : shortest_time(shortest, memory, mean);
-  if (method == FitMethod::least_squares) {
-    // C belongs to the density of all times, so the bins are selected without renormalising them.
-    std::vector<LogBin> used;
-    for (const LogBin &bin : bins)
-      if (!shortest || bin.lo >= least) used.push_back(bin);
-    return fit_least_squares(used, delta);
-  }
-  // Likewise: above the shortest time the density integrates to the share of the times there.
-  GeneralisedGammaFit fit = fit_maximum_likelihood(times, least, delta);
-  const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
-  fit.C *= share;
-  fit.se_C *= share;
-  return fit;
-}
-
 namespace {
 
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const IntervalCurve &curve,
                                  const IntervalSettings &settings) {
+  // C belongs to the density of all times: bins are selected without renormalising them, and above
+  // the shortest time the fitted density integrates to the share of the times there.
+  std::vector<LogBin> bins;
+  for (const LogBin &bin : curve.bins)
+    if (!settings.shortest || bin.lo >= curve.shortest) bins.push_back(bin);
   std::vector<IntervalFit> fits;
-  const auto add = [&](const char *name, FitMethod method, double delta) {
-    fits.push_back({name, delta,
-                    fit_times(method, times, curve.bins, settings.shortest, curve.sample.memory,
-                              curve.fitted_mean(), delta)});
-  };
   for (const double delta : settings.deltas) {
-    if (settings.maximum_likelihood)
-      add("maximum likelihood", FitMethod::maximum_likelihood, delta);
-    if (settings.least_squares) add("least squares", FitMethod::least_squares, delta);
+    if (settings.maximum_likelihood) {
+      GeneralisedGammaFit fit = fit_maximum_likelihood(times, curve.shortest, delta);
+      const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
+      fit.C *= share;
+      fit.se_C *= share;
+      fits.push_back({"maximum likelihood", delta, fit});
+    }
+    if (settings.least_squares)
+      fits.push_back({"least squares", delta, fit_least_squares(bins, delta)});
   }
   for (IntervalFit &fit : fits) {
     if (fit.fit.degenerate) continue;

@@ -106,16 +106,6 @@ struct IntervalCurve {
 /// the threshold are left out.
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
 
-/// Fits a density of inter-event times by one of the two methods.
-/// \param times above 0
-/// \param bins their density, for least squares
-/// \param mean of all times, also those of 0
-/// \param delta value at which delta is held; NaN: free
-enum class FitMethod { maximum_likelihood, least_squares };
-GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times,
-                              const std::vector<LogBin> &bins, std::optional<double> shortest,
-                              double memory, double mean, double delta);
-
 /// Computes one curve for each catalogue and threshold.
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,

@@ -17,8 +17,6 @@ namespace LSM::postproc {
 
 namespace {
 
-std::function<void(int, int)> watcher;
-
 // Cells [edge i, edge i + 1) and the probability of a law in each.
 class CellsOfLaw {
  public:
@@ -96,28 +94,18 @@ Rng generator(std::uint64_t seed) {
   return rng;
 }
 
-void watch_replicas(std::function<void(int, int)> observer) { watcher = std::move(observer); }
-
 void for_each_replica(int count, const std::function<void(int)> &task) {
   std::atomic<int> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
-  int done = 0;
   const auto work = [&] {
-    for (int k = next++; k < count; k = next++) {
-      std::exception_ptr caught;
-      try {
+    for (int k = next++; k < count; k = next++) try {
         task(k);
       } catch (...) {
-        caught = std::current_exception();
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (caught && !failure) {
-        failure = caught;
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!failure) failure = std::current_exception();
         next = count;
       }
-      if (watcher) watcher(++done, count);
-    }
   };
   std::vector<std::thread> pool;
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

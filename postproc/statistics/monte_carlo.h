@@ -38,10 +38,6 @@ void for_each_replica(int count, const std::function<void(int)> &task);
 /// \param as_far whether the replica of a given number is; called from any thread
 double share_of_replicas(int count, const std::function<bool(int)> &as_far);
 
-/// Sets a function to be called after each replica with the number done and the total (at the end,
-/// count of count), by one thread at a time; an empty one switches the reports off.
-void watch_replicas(std::function<void(int done, int count)> observer);
-
 /// A law that was fitted to a sample, and how to fit it again. Functions are called from any
 /// thread, `draw` from one at a time.
 struct FittedLaw {

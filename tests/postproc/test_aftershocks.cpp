@@ -124,8 +124,8 @@ TEST(Aftershocks, BackgroundIsTakenOff) {
     const Sequences s = stack_sequences(table.events, rule);
     EXPECT_EQ(s.main_shocks, 200);
     const OmoriFit fit = fit_omori(s, 1.0);
-    p += fit.p / catalogues;
-    p_variance += std::pow(fit.se_p / catalogues, 2);
+    p += fit.p.value / catalogues;
+    p_variance += std::pow(fit.p.error / catalogues, 2);
   }
   EXPECT_NEAR(p, 1.2, 4.0 * std::sqrt(p_variance));
   EXPECT_LT(std::sqrt(p_variance), 0.03);
@@ -238,18 +238,19 @@ TEST(Omori, MaximumOfAnIndependentLikelihood) {
     return sum - static_cast<double>(s.main_shocks) *
                      (K * (std::pow(s.window + c, q) - std::pow(c, q)) / q + background * s.window);
   };
-  const double best = log_likelihood(fit.K, fit.c, fit.p, fit.background);
+  const double K = fit.K.value, c = fit.c.value, p = fit.p.value, mu = fit.background.value;
+  const double best = log_likelihood(K, c, p, mu);
   for (const double up : {-1e-3, 1e-3}) {
-    EXPECT_LT(log_likelihood(fit.K * (1 + up), fit.c, fit.p, fit.background), best);
-    EXPECT_LT(log_likelihood(fit.K, fit.c * (1 + up), fit.p, fit.background), best);
-    EXPECT_LT(log_likelihood(fit.K, fit.c, fit.p + up, fit.background), best);
-    EXPECT_LT(log_likelihood(fit.K, fit.c, fit.p, fit.background * (1 + up)), best);
+    EXPECT_LT(log_likelihood(K * (1 + up), c, p, mu), best);
+    EXPECT_LT(log_likelihood(K, c * (1 + up), p, mu), best);
+    EXPECT_LT(log_likelihood(K, c, p + up, mu), best);
+    EXPECT_LT(log_likelihood(K, c, p, mu * (1 + up)), best);
   }
   const double n = static_cast<double>(s.times.size());
   const double constant = n * std::log(n / (100.0 * 50.0)) - n;
   EXPECT_NEAR(fit.likelihood_ratio, 2.0 * (best - constant), 1e-4);
-  EXPECT_NEAR(fit.constant, n / 5000.0, 1e-12);
-  EXPECT_NEAR(fit.rate(1.0), fit.K * std::pow(1.0 + fit.c, -fit.p) + fit.background, 1e-12);
+  EXPECT_NEAR(fit.constant.value, n / 5000.0, 1e-12);
+  EXPECT_NEAR(fit.rate(1.0), K * std::pow(1.0 + c, -p) + mu, 1e-12);
 }
 
 TEST(Omori, ErrorsCoverTheTruth) {
@@ -267,13 +268,13 @@ TEST(Omori, ErrorsCoverTheTruth) {
       const OmoriFit fit =
           fit_omori(omori_sequences(one.law, 150, one.first, 100.0, seed), one.hold_c);
       ASSERT_FALSE(fit.degenerate) << fit.why;
-      p.add(fit.p, fit.se_p);
-      ln_K.add(std::log(fit.K), fit.se_K / fit.K);
-      background.add(fit.background, fit.se_background);
+      p.add(fit.p.value, fit.p.error);
+      ln_K.add(std::log(fit.K.value), fit.K.error / fit.K.value);
+      background.add(fit.background.value, fit.background.error);
       if (std::isnan(one.hold_c))
-        ln_c.add(std::log(fit.c), fit.se_c / fit.c);
+        ln_c.add(std::log(fit.c.value), fit.c.error / fit.c.value);
       else
-        EXPECT_EQ(fit.se_c, 0.0);
+        EXPECT_EQ(fit.c.error, 0.0);
     }
     p.expect("p");
     ln_K.expect("ln K");
@@ -294,19 +295,19 @@ TEST(Omori, ManyTimesAreTakenTogether) {
   const OmoriFit a = fit_omori(once), b = fit_omori(twice);
   ASSERT_FALSE(a.degenerate) << a.why;
   ASSERT_FALSE(b.degenerate) << b.why;
-  EXPECT_NEAR(b.p, a.p, 1e-3 * a.se_p);
-  EXPECT_NEAR(b.c, a.c, 1e-3 * a.se_c);
-  EXPECT_NEAR(b.K, a.K, 1e-3 * a.se_K);
+  EXPECT_NEAR(b.p.value, a.p.value, 1e-3 * a.p.error);
+  EXPECT_NEAR(b.c.value, a.c.value, 1e-3 * a.c.error);
+  EXPECT_NEAR(b.K.value, a.K.value, 1e-3 * a.K.error);
   EXPECT_NEAR(b.likelihood_ratio / a.likelihood_ratio, 2.0, 1e-4);
-  EXPECT_NEAR(b.se_p * std::sqrt(2.0) / a.se_p, 1.0, 1e-3);
+  EXPECT_NEAR(b.p.error * std::sqrt(2.0) / a.p.error, 1.0, 1e-3);
 }
 
 TEST(Omori, WithoutBackgroundItIsZero) {
   const OmoriFit fit = fit_omori(omori_sequences({5.0, 1.0, 1.5, 0.0}, 300, 0.0, 20.0, 12));
   ASSERT_FALSE(fit.degenerate) << fit.why;
-  EXPECT_NEAR(fit.p, 1.5, 4.0 * fit.se_p);
-  EXPECT_TRUE(fit.background == 0.0 ? std::isnan(fit.se_background)
-                                    : fit.background < 2.0 * fit.se_background);
+  EXPECT_NEAR(fit.p.value, 1.5, 4.0 * fit.p.error);
+  EXPECT_TRUE(fit.background.value == 0.0 ? std::isnan(fit.background.error)
+                                          : fit.background.value < 2.0 * fit.background.error);
 }
 
 TEST(Omori, AConstantRateIsNoDecay) {
@@ -319,9 +320,9 @@ TEST(Omori, AConstantRateIsNoDecay) {
     if (fit.likelihood_ratio <= 7.81) {
       EXPECT_TRUE(fit.degenerate);
       EXPECT_EQ(fit.why, "no decay: a constant rate fits as well");
-      EXPECT_TRUE(std::isnan(fit.p) && std::isnan(fit.c) && std::isnan(fit.K));
-      EXPECT_NEAR(fit.constant, 0.1, 5.0 * fit.se_constant);
-      EXPECT_EQ(fit.rate(3.0), fit.constant);
+      EXPECT_TRUE(std::isnan(fit.p.value) && std::isnan(fit.c.value) && std::isnan(fit.K.value));
+      EXPECT_NEAR(fit.constant.value, 0.1, 5.0 * fit.constant.error);
+      EXPECT_EQ(fit.rate(3.0), fit.constant.value);
     }
   }
   EXPECT_LE(decays, 10);  // 5 on average, if the approximation holds
@@ -334,7 +335,7 @@ TEST(Omori, DegenerateAndImpossible) {
   EXPECT_NE(fit_omori(s).why.find("at least 20 events needed"), std::string::npos);
   // A c far below the first of the times cannot be distinguished from 0.
   const OmoriFit sharp = fit_omori(omori_sequences({1.0, 1e-9, 0.8, 0.0}, 200, 0.5, 100.0, 2));
-  EXPECT_TRUE(sharp.degenerate || sharp.c < 2.0 * sharp.se_c);
+  EXPECT_TRUE(sharp.degenerate || sharp.c.value < 2.0 * sharp.c.error);
   EXPECT_FALSE(
       fit_omori(omori_sequences({1.0, 1e-9, 0.8, 0.0}, 200, 0.5, 100.0, 2), 0.0).degenerate);
   EXPECT_THROW(fit_omori(omori_sequences({1.0, 1.0, 1.1, 0.0}, 30, 0.0, 10.0, 1), 0.0),
@@ -414,9 +415,9 @@ TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
   const Aftershocks a = aftershocks_of(clustered, rule, std::nan(""), 1.6, 19, 1);
   EXPECT_EQ(a.sequences.main_shocks, 29);
   ASSERT_FALSE(a.fit.degenerate) << a.fit.why;
-  EXPECT_NEAR(a.fit.p, 2.0, 4.0 * a.fit.se_p);
-  EXPECT_NEAR(a.fit.c, 1.0, 4.0 * a.fit.se_c);
-  EXPECT_LT(a.fit.se_p, 0.3);
+  EXPECT_NEAR(a.fit.p.value, 2.0, 4.0 * a.fit.p.error);
+  EXPECT_NEAR(a.fit.c.value, 1.0, 4.0 * a.fit.c.error);
+  EXPECT_LT(a.fit.p.error, 0.3);
   EXPECT_EQ(a.p, 0.05);
   ASSERT_GT(a.bins.size(), 5u);
   // The rate in a bin of few events scatters too much for a test.

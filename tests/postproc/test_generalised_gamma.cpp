@@ -500,13 +500,8 @@ TEST(GoodnessOfFit, NumberOfCoresDoesNotMatter) {
 
 TEST(Replicas, EachOnceAndErrorsAreHandedOn) {
   std::vector<int> calls(1000);
-  std::vector<int> reported;
-  watch_replicas([&reported](int done, int) { reported.push_back(done); });
   for_each_replica(1000, [&calls](int k) { ++calls[static_cast<std::size_t>(k)]; });
-  watch_replicas({});
   EXPECT_EQ(calls, std::vector<int>(1000, 1));
-  ASSERT_EQ(reported.size(), 1000U);
-  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
   for_each_replica(0, [](int) { FAIL(); });
   EXPECT_THROW(for_each_replica(10,
                                 [](int k) {

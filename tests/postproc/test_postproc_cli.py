@@ -9,15 +9,13 @@ import os
 import operator
 import re
 import shutil
-import signal
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, rows, same_bytes, table, unknown_keys,
-                        write_catalogue, write_series)
-from programs import SOURCE, Program, refused, run, start
+from data_files import (edit, header, loading_with_drops, numbers, omori, pick, rows, same_bytes, table, unknown_keys, write_catalogue, write_series)
+from programs import SOURCE, refused, run
 
 PICKER = dict(picker="literal", min_size=0, **{"lambda": 0.5})
 CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
@@ -560,20 +558,6 @@ def test_faults(do, postproc, faults):
                     assert result.err.startswith("postproc: ") and result.err.count("\n") == 1, f"{what}: {result}"
                 do(words, part)
                 assert part.read_bytes() == whole, f"again, after {what}"
-
-
-def test_progress(do, postproc):
-    """A terminal shows the progress of a long test; a file or a pipe does not get it."""
-    if not shutil.which("script"):
-        pytest.skip("no script(1), which makes a terminal")
-    times = np.cumsum(np.random.default_rng(3).exponential(size=2000))
-    write_catalogue("many.csv", times, [1] * 2000)
-    assert do("intervals many.csv --no-picture --replicas 50 -o x").err == ""
-    line = f"exec '{postproc.path}' intervals many.csv --no-picture --replicas 100000000 -o y"
-    with start(Program("script", "script"), ["-qefc", line, "terminal.log"]) as child:
-        assert child.until(lambda: Path("terminal.log").exists() and re.search(b"Monte Carlo replica [0-9]* of 100000000",
-                                                                               Path("terminal.log").read_bytes()))
-        child.send_signal(signal.SIGTERM)
 
 
 def test_outputs_are_not_inputs(no, work):
