@@ -131,31 +131,21 @@ std::string MagnitudeOptions::text() const {
                "is not only the radiated one";
 }
 
-void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {
+MagnitudeScale MagnitudeOptions::scale(const std::string &path, const CatalogueInfo &info) const {
   if (of_moment() && !info.has("slip_moment"))
     throw std::runtime_error(path +
                              ": has no column slip_moment, expected one for --magnitude-of moment "
                              "(fault: -var location yes; else --magnitude-of size)");
-}
-
-double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &info) const {
-  require(path, info);
+  if (!in_si()) return {constant.value_or(0.0)};
   const ModelUnits si = units(path, info);
-  if (!of_moment()) return si.energy();
+  if (!of_moment()) return energy_magnitude(si.energy());
   // Column slip_moment includes the modulus of the header, if there is one.
   double modulus = 1.0;
   const std::string *const text = info.find("modulus");
   if (text && (!text::parse(*text, modulus) || !(modulus > 0.0)))
     throw std::runtime_error(
         fmt::format("{}: modulus is '{}', expected a positive number", path, *text));
-  return si.moment() / modulus;
-}
-
-MagnitudeScale MagnitudeOptions::scale(const std::string &path, const CatalogueInfo &info) const {
-  require(path, info);
-  if (!in_si()) return {constant.value_or(0.0)};
-  const double unit = si_unit(path, info);
-  return of_moment() ? moment_magnitude(unit) : energy_magnitude(unit);
+  return moment_magnitude(si.moment() / modulus);
 }
 
 void JsonOutput::add_to(CLI::App *command) {

@@ -63,14 +63,9 @@ struct MagnitudeOptions {
   std::string type() const;
   /// Formula of the magnitude, for people.
   std::string text() const;
-  /// \throws std::runtime_error if a catalogue lacks the column
-  void require(const std::string &path, const CatalogueInfo &info) const;
-  /// Moment (N m) or energy (J) of a model unit of that column.
-  /// \throws std::invalid_argument or std::runtime_error as units() and require(), or if the header
-  /// has an impossible modulus
-  double si_unit(const std::string &path, const CatalogueInfo &info) const;
   /// Magnitude scale of one catalogue.
-  /// \throws std::runtime_error if the catalogue lacks the column or its model has no SI units
+  /// \throws std::runtime_error if the catalogue lacks the column, its model has no SI units, or
+  /// its header an impossible modulus
   MagnitudeScale scale(const std::string &path, const CatalogueInfo &info) const;
 
  private:

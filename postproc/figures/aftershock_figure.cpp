@@ -84,7 +84,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events, {} main shocks)", curve.label, a.fit.n,
                          a.sequences.main_shocks));
-    const auto exact = [](const Measured &number) { return text::number(number.value); };
+    const auto exact = [](const Measured &one) { return text::number(one.value); };
     const OmoriFit &fit = a.fit;
     plot.add_law(a.bins.front().lo, a.bins.back().hi,
                  fit.degenerate ? exact(fit.constant)

@@ -133,6 +133,25 @@ function drawAxes(context, frame, x, y) {
   context.restore();
 }
 
+/** Values in steps, filled down to 0, with axes; returns the largest value. */
+function drawSteps(context, values, box, x, title) {
+  const most = Math.max(...values) || 1, least = Math.min(0, ...values), n = values.length;
+  const y = value => box.y + box.h - (value - least) / (1.05 * most - least) * box.h;
+  context.beginPath();
+  context.moveTo(box.x, y(0));
+  values.forEach((value, k) => {
+    context.lineTo(box.x + box.w * k / n, y(value));
+    context.lineTo(box.x + box.w * (k + 1) / n, y(value));
+  });
+  context.lineTo(box.x + box.w, y(0));
+  context.fillStyle = '#cfe3f1';
+  context.fill();
+  context.strokeStyle = '#0072B2';
+  context.stroke();
+  drawAxes(context, box, x, {from: least, to: 1.05 * most, title});
+  return most;
+}
+
 /** The scale of slip velocities as a bar. */
 function drawSlipScale(context, x, y, width) {
   for (let p = 0; p < width; ++p) {
@@ -145,6 +164,13 @@ function drawSlipScale(context, x, y, width) {
   context.textBaseline = 'top';
   context.textAlign = 'center';
   [1, 10, 100, 1000].forEach((value, k) => context.fillText(String(value), x + width * k / 3, y + 13));
+}
+
+function drawLine(context, x0, y0, x1, y1) {
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
 }
 
 /** A mark of a run's shape. */

@@ -61,21 +61,8 @@ class EventPanel {
     this.find('event-moment-rate').hidden = !source;
     if (!source) return;
     const canvas = this.find('moment-rate'), width = this.width, context = sharp(canvas, width, 200), {rates, interval} = source;
-    const box = {x: 72, y: 8, w: width - 90, h: 150}, span = rates.length * interval;
-    const most = Math.max(...rates) || 1, least = Math.min(0, ...rates);
-    const y = value => box.y + box.h - (value - least) / (1.05 * most - least) * box.h;
-    context.beginPath();
-    context.moveTo(box.x, y(0));
-    rates.forEach((value, k) => {
-      context.lineTo(box.x + box.w * k / rates.length, y(value));
-      context.lineTo(box.x + box.w * (k + 1) / rates.length, y(value));
-    });
-    context.lineTo(box.x + box.w, y(0));
-    context.fillStyle = '#cfe3f1';
-    context.fill();
-    context.strokeStyle = '#0072B2';
-    context.stroke();
-    drawAxes(context, box, {from: 0, to: span, title: 'Time since it began'}, {from: least, to: 1.05 * most, title: 'Moment rate'});
+    const span = rates.length * interval;
+    const most = drawSteps(context, rates, {x: 72, y: 8, w: width - 90, h: 150}, {from: 0, to: span, title: 'Time since it began'}, 'Moment rate');
     canvas.setAttribute('aria-label', `Moment rate over ${short(span, 4)} time units, at most ${short(most, 4)}`);
     canvas.dataset.moment = String(rates.reduce((sum, value) => sum + value * interval, 0));
   }
@@ -138,7 +125,7 @@ class EventPanel {
     else {
       context.strokeStyle = chosenColour;
       context.setLineDash([5, 3]);
-      for (const time of [begin, end]) { context.beginPath(); context.moveTo(frame.x, y(time)); context.lineTo(frame.x + frame.w, y(time)); context.stroke(); }
+      for (const time of [begin, end]) drawLine(context, frame.x, y(time), frame.x + frame.w, y(time));
       context.setLineDash([]);
     }
     drawAxes(context, frame, {from: x0, to: x1, title: 'Distance from its first place along the fault'},
@@ -189,25 +176,11 @@ class EventPanel {
   }
 
   drawProfile(slips, shift, x0, x1, frame, width) {
-    const context = sharp(this.find('slip-profile'), width, 140), n = slips.length;
-    const box = {x: frame.x, y: 8, w: frame.w, h: 90};
-    const most = Math.max(...slips) || 1, least = Math.min(0, ...slips);
-    const y = value => box.y + box.h - (value - least) / (1.05 * most - least) * box.h;
-    context.beginPath();
-    context.moveTo(box.x, y(0));
-    for (let c = 0; c < n; ++c) {
-      const value = slips[(c + shift) % n];
-      context.lineTo(box.x + box.w * c / n, y(value));
-      context.lineTo(box.x + box.w * (c + 1) / n, y(value));
-    }
-    context.lineTo(box.x + box.w, y(0));
-    context.fillStyle = '#cfe3f1';
-    context.fill();
-    context.strokeStyle = '#0072B2';
-    context.stroke();
-    drawAxes(context, box, {from: x0, to: x1, title: 'Distance from its first place along the fault'}, {from: least, to: 1.05 * most, title: 'Slip'});
-    this.find('slip-profile').setAttribute('aria-label', `Slip along the fault, at most ${short(most, 4)}`);
-    this.find('slip-profile').dataset.most = String(most);
+    const canvas = this.find('slip-profile'), shifted = slips.map((_, c) => slips[(c + shift) % slips.length]);
+    const most = drawSteps(sharp(canvas, width, 140), shifted, {x: frame.x, y: 8, w: frame.w, h: 90},
+      {from: x0, to: x1, title: 'Distance from its first place along the fault'}, 'Slip');
+    canvas.setAttribute('aria-label', `Slip along the fault, at most ${short(most, 4)}`);
+    canvas.dataset.most = String(most);
   }
 
   readSlip(event) {

@@ -30,25 +30,24 @@ function rangesOf(curves, logY, inY = []) {
   return {x: [x0 / 1.15, x1 * 1.15], y: logY ? [y0 / 1.5, y1 * 1.5] : [y0 - room, y1 + room]};
 }
 
+function drawThrough(context, points, k) {
+  context.setLineDash(dashes[k % dashes.length]);
+  context.beginPath();
+  points.forEach((p, i) => { if (i) context.lineTo(p.canvasx, p.canvasy); else context.moveTo(p.canvasx, p.canvasy); });
+  context.stroke();
+  context.setLineDash([]);
+}
+
 /** Points with error bars, and behind them, where lined, a line. */
 function markPlotter(k, lined) {
   return e => {
     const context = e.drawingContext;
     context.save();
     context.fillStyle = context.strokeStyle = colours[k % colours.length];
-    if (lined) {
-      context.setLineDash(dashes[k % dashes.length]);
-      context.beginPath();
-      e.points.forEach((p, i) => { if (i) context.lineTo(p.canvasx, p.canvasy); else context.moveTo(p.canvasx, p.canvasy); });
-      context.stroke();
-      context.setLineDash([]);
-    }
+    if (lined) drawThrough(context, e.points, k);
     for (const p of e.points) {
       if (!Number.isFinite(p.canvasy)) continue;
-      context.beginPath();
-      context.moveTo(p.canvasx, e.dygraph.toDomYCoord(p.yval_minus));
-      context.lineTo(p.canvasx, e.dygraph.toDomYCoord(p.yval_plus));
-      context.stroke();
+      drawLine(context, p.canvasx, e.dygraph.toDomYCoord(p.yval_minus), p.canvasx, e.dygraph.toDomYCoord(p.yval_plus));
       drawMark(context, shapes[k % shapes.length], p.canvasx, p.canvasy, 3);
     }
     context.restore();
@@ -61,10 +60,7 @@ function linePlotter(k) {
     context.save();
     context.strokeStyle = colours[k % colours.length];
     context.lineWidth = 2;
-    context.setLineDash(dashes[k % dashes.length]);
-    context.beginPath();
-    e.points.forEach((p, i) => { if (i) context.lineTo(p.canvasx, p.canvasy); else context.moveTo(p.canvasx, p.canvasy); });
-    context.stroke();
+    drawThrough(context, e.points, k);
     context.restore();
   };
 }
@@ -164,10 +160,7 @@ class Statistics {
         context.setLineDash([2, 4]);
         for (const value of printed) {
           const y = g.toDomYCoord(value);
-          context.beginPath();
-          context.moveTo(area.x, y);
-          context.lineTo(area.x + area.w, y);
-          context.stroke();
+          drawLine(context, area.x, y, area.x + area.w, y);
         }
         context.restore();
         this.drawHandle(context, area, g);
@@ -221,10 +214,7 @@ class Statistics {
     const x = clip(Statistics.xOf(graph, this.app.threshold));
     context.strokeStyle = context.fillStyle = chosenColour;
     context.lineWidth = 2;
-    context.beginPath();
-    context.moveTo(x, area.y);
-    context.lineTo(x, area.y + area.h);
-    context.stroke();
+    drawLine(context, x, area.y, x, area.y + area.h);
     context.beginPath();
     context.moveTo(x - 7, area.y);
     context.lineTo(x + 7, area.y);

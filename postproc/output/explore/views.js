@@ -195,10 +195,7 @@ class View {
       const isChosen = chosen !== null && point.xval === t_start[chosen] && point.yval === size[chosen];
       context.fillStyle = context.strokeStyle = isChosen ? chosenColour : point.yval >= this.app.threshold ? '#0072B2' : '#aaa';
       context.lineWidth = isChosen ? 2 : 0.6;
-      context.beginPath();
-      context.moveTo(point.canvasx, bottom);
-      context.lineTo(point.canvasx, point.canvasy);
-      context.stroke();
+      drawLine(context, point.canvasx, bottom, point.canvasx, point.canvasy);
       drawMark(context, isChosen ? 'triangle' : 'circle', point.canvasx, point.canvasy, isChosen ? 5 : 1.8);
     }
     context.restore();
@@ -210,10 +207,7 @@ class View {
     context.save();
     context.strokeStyle = '#333';
     context.setLineDash([6, 4]);
-    context.beginPath();
-    context.moveTo(area.x, y);
-    context.lineTo(area.x + area.w, y);
-    context.stroke();
+    drawLine(context, area.x, y, area.x + area.w, y);
     context.restore();
   }
 
