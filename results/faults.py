@@ -4,7 +4,8 @@
 
 faults.py                           writes the CSV files of the published catalogues, and all figures
 faults.py publish POSTPROC RUN...   of runs (folders FAULT_LENGTH_PACKING): catalogue and ruptures into faults; those of length 120 are picked again,
-                                 into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this
+                                 into picked.csv and ruptures_tests.csv, in which the rows of other runs stay; of slow ones only this.
+                                 FAULT_fine_LENGTH_PACKING, FAULT_wide_...: another time step or width, into variants.csv
 faults.py discs PACKING.dump RUN    which discs ring, and how they are held, from frames RUN.STEP.dump (extra=fault_dump) of a run with contacts of
                                  stiffness 0.2, and one of its packing before compression (settle=1): rows of trapped.csv
 
@@ -336,6 +337,36 @@ def find_ruptures(*folders):
     ], tests)
 
 
+VARIANTS, VARIED = FOLDER / "variants.csv", ("fine", "coarse", "wide")
+USUAL_RUNS = ("leaky_120_4", "reflecting_120_4", "absorbing_120_1")  # beside them
+NUMBERS = (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"), ("B", "B_0.0001", None),
+           ("mean_time", "mean_time_0.0001", None))
+
+
+def variant_of(postproc, folder):
+    """A row of variants.csv: rates with errors from ten parts of the time, exponent, gamma and B of a run."""
+    path, history = folder / "fault.catalogue.csv", history_of(folder)
+    fault, number = folder.name.split("_")[0], {key: float(history.header[key]) for key in ("dt", "width", "length", "seed")}
+    run = Run(path, fault, int(number["length"]), int(number["seed"]), loaded(path))
+    begin, _, work, *_ = ruptures_in(history)
+    found = lsm.Table(np.rec.fromarrays([LOADING + begin, LOADING + begin, work], names="t_start,t_end,size"),
+                      history.header | {"time_span": 1000 * run.time})
+    row = dict(run=folder.name, fault=fault, packing=run.packing, dt=f"{number['dt']:g}", width=f"{number['width']:g}", time=run.time)
+    rates = dict(drops=drops(run, 1e-4), slips=slips(run, 0.1), ruptures=per_length(run._replace(events=found), work >= 1e-2))
+    fits, = summary.rows_of(postproc, [path], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
+    for name, (rate, error) in (rates | {key: (fits[column], fits.get(error, "")) for key, column, error in NUMBERS}).items():
+        row |= {name: rate, f"{name}_error": error}
+    return row
+
+
+def add_variants(postproc, *folders):
+    rows = [row for row in (read(VARIANTS) if VARIANTS.exists() else []) if row["run"] not in {folder.name for folder in folders}]
+    write_table(VARIANTS, [
+        "Runs of length 120 with another time step or width, and the usual ones of the same packings: drops >= 1e-4, slips >= 0.1 and ruptures",
+        "of a work >= 0.01 in 1000 time units, exponent, gamma and B as in the article (faults.py publish)"
+    ], sorted(rows + [variant_of(postproc, folder) for folder in folders], key=lambda row: row["run"]))
+
+
 TRAPPED, RINGING, KT = FOLDER / "trapped.csv", 1.0, 0.2  # RINGING: discs that move with shorter periods are single ones
 MOST_DISCS = 3
 
@@ -481,15 +512,17 @@ def find_bursts(postproc, *folders):
 
 def publish_runs(postproc, *names):
     folders = [Path(name).resolve() for name in names]
-    slow = [folder for folder in folders if "slow" in folder.name]
-    full = [folder for folder in folders if folder not in slow]
+    variants = [folder for folder in folders if folder.name.split("_")[1] in VARIED]
+    usual = [folder for folder in folders if folder not in variants]
+    full = [folder for folder in usual if "slow" not in folder.name]
     (FOLDER / "faults").mkdir(exist_ok=True)
     for folder in full:
         new, published = folder / "fault.catalogue.csv", FOLDER / f"faults/{folder.name}.catalogue.csv.xz"
         if not published.exists() or lsm.read_catalogue(published)["t_end"].max() < lsm.read_catalogue(new)["t_end"].max():  # a longer one stays
             publish(new, published)
     find_ruptures(*full)
-    pick_again(postproc, *(folder for folder in folders if "_120_" in folder.name))
+    add_variants(postproc, *variants, *(folder for folder in full if folder.name in USUAL_RUNS))
+    pick_again(postproc, *(folder for folder in usual if "_120_" in folder.name))
     find_bursts(postproc, *(folder for folder in full if "_120_" in folder.name))
     find_spectra(postproc, *(folder for folder in full if folder.name.endswith("_120_4")))
 
@@ -683,8 +716,7 @@ def ratio_values(rates):
 
 def fit_values(postproc):
     """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, over those that nobody fitted, and of each of these."""
-    found, numbers = {}, (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
-                          ("B", "B_0.0001", None), ("mean_time", "mean_time_0.0001", None))
+    found, numbers = {}, NUMBERS
     for fault in FAULTS:
         every = [run for length in LENGTHS for run in runs_of(fault, length)]
         rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
@@ -716,22 +748,24 @@ def fit_values(postproc):
 def velocity_values():
     """Rates at half the velocity of the plates, as picked and with the loading that lacks, and over that at the full velocity."""
     for fault in FAULTS:
+        packings = [row["packing"] for row in read(PICKED) if row["fault"] == fault]
         kinds = {
-            "full": of_picked(fault, packings=("1", "4")), "slow": of_picked(fault, USUAL / 2, packings=("1", "4")),
-            "loaded": of_picked(fault, USUAL / 2, True, packings=("1", "4"))
+            "full": of_picked(fault, packings=packings), "slow": of_picked(fault, USUAL / 2, packings=packings),
+            "loaded": of_picked(fault, USUAL / 2, True, packings=packings)
         }
-        kinds = {
-            kind: [row for row in rows if kind != "full" or row["run"] in ("leaky_120_4", "reflecting_120_4", "absorbing_120_1")]
-            for kind, rows in kinds.items()
-        }
-        for least in SIZES if all(kinds.values()) else ():
-            rate = {kind: (float(rows[0][f"rate_{least:g}"]), float(rows[0][f"rate_{least:g}_error"])) for kind, rows in kinds.items()}
-            full, error = rate["full"]
-            for kind, (value, own) in rate.items():
-                yield Value(f"velocity.{kind}.{fault}.{least:g}", value, own, "1/1000", 1, "picked.csv")
+        by_packing = {kind: {row["packing"]: row for row in rows} for kind, rows in kinds.items()}
+        paired = sorted(set.intersection(*(set(rows) for rows in by_packing.values())), key=int)
+        for least in SIZES if paired else ():
+            rates = {
+                kind: [(float(rows[k][f"rate_{least:g}"]), float(rows[k][f"rate_{least:g}_error"])) for k in paired]
+                for kind, rows in by_packing.items()
+            }
+            for kind, some in rates.items():
+                yield Value(f"velocity.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*some)), "1/1000", len(paired), "picked.csv")
                 if kind != "full":
-                    yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", value / full, value / full * math.hypot(own / value, error / full), "", 1,
-                                "picked.csv")
+                    ratios = [(value / full, value / full * math.hypot(own / value, error / full))
+                              for (value, own), (full, error) in zip(some, rates["full"])]
+                    yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*ratios)), "", len(paired), "picked.csv")
 
 
 def estimator_values():
@@ -798,6 +832,16 @@ def rupture_values():
             for key in ("share", *(f"{name}_{least:g}" for name in ("rate", "share") for least in SIZES[1:])):
                 yield Value(f"ruptures.test.{fault}.{float(slipping):g}.{float(merged):g}.{key}",
                             *mean_of(some, key)[:2], "", len(some), "ruptures_tests.csv")
+
+
+def variant_values():
+    """Drops >= 1e-4 with blocks twice as wide over those of the usual width."""
+    rows = {row["run"]: row for row in read(VARIANTS)}
+    for usual in USUAL_RUNS:
+        fault, length, packing = usual.split("_")
+        (value, error), (full, of_full) = ((float(rows[run]["drops"]), float(rows[run]["drops_error"]))
+                                           for run in (f"{fault}_wide_{length}_{packing}", usual))
+        yield Value(f"variant.drops.wide.{fault}", value / full, value / full * math.hypot(error / value, of_full / full), "", 1, "variants.csv")
 
 
 def budget_values():
@@ -899,7 +943,7 @@ def all_values(postproc):
     rates = list(rate_values())
     return [
         *rates, *ratio_values(rates), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(),
-        *rupture_values(), *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
+        *rupture_values(), *variant_values(), *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
     ]
 
 

@@ -173,5 +173,5 @@ def law_values():
 def all_values(postproc):
     return [
         *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *scaling_values(),
-        *speed_values(), *sources.source_values(), *validation_tables.all_values(postproc)
+        *speed_values(), *sources.source_values(), *validation_tables.rupture_values()
     ]

@@ -271,6 +271,16 @@ def threshold_table():
     return keyed_table("fault", article.FAULTS, columns)
 
 
+def variants_table():
+    """Length 120 with other time steps and widths."""
+    rows, columns = sorted(read(article.VARIANTS), key=lambda row: article.FAULTS.index(row["fault"])), {"": lambda row: row["fault"]}
+    columns |= {"packing": lambda row: row["packing"], "time step": lambda row: row["dt"], "width": lambda row: row["width"]}
+    names = {"drops": "drops >= 1e-4", "slips": "slips >= 0.1", "ruptures": "ruptures >= 0.01", "exponent": "exponent", "gamma": "gamma", "B": "B"}
+    for key, name in names.items():
+        columns[name] = lambda row, key=key: values.text_of(float(row[key]), float(row[f"{key}_error"] or "nan"), "()")
+    return study_table("", columns, rows)
+
+
 def beside_table():
     """The three faults beside each other, at the shortest length."""
     columns = {"drops >= 1e-4": ("rate.drops.{}.120.0.0001", "()"), "slips >= 0.1 †": ("rate.slips.{}.120.0.1", "()")}

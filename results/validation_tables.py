@@ -4,16 +4,12 @@ import itertools
 import math
 from pathlib import Path
 
-import faults
 import rupture_benchmark
-import values
-from lsm import LOADING, slip, summary
 from lsm.tables import read
 from values import Value
 
 FOLDER = Path(__file__).resolve().parent
 FLAT = {"TPV205": "rupture_benchmark-stations.csv", "TPV3": "rupture_tpv3-stations.csv"}
-STEPS = {"0.03": "fault", "0.015": "half"}  # of the leaky fault, packing 4: the runs with each
 
 
 def order_of(before, after, key):
@@ -141,18 +137,6 @@ def same_packing_table():
     ]  # yapf: disable
 
 
-def leaky_step_table():
-    """The leaky fault with its time step and with half of it."""
-    found = values.read()
-    keys = {"drops": "drops >= 1e-4 in 1000 time units", "slips": "slips >= 0.1", "exponent": "exponent", "gamma": "gamma", "B": "B"}
-
-    def cell(key, step):
-        one = found[f"leaky_step.{key}.{step}"]
-        return values.text_of(one.value, one.error, "()")
-
-    return ["time step", *keys.values()], [[step, *(cell(key, step) for key in keys)] for step in STEPS]
-
-
 def extremes_table():
     """What became of stiff and extreme cases."""
     groups = {}
@@ -166,26 +150,6 @@ def extremes_table():
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
 
 # ---- numbers of sentences
-
-
-def leaky_values(postproc):
-    """Rates, exponent, gamma and B of the leaky fault with its time step and with half of it, in the time that both have."""
-    paths = {step: FOLDER / f"slip/{name}_120_4.catalogue.csv.xz" for step, name in STEPS.items()}
-    end = float(faults.loaded(paths["0.015"])["t_end"].max())
-    yield Value("leaky_step.time", end - LOADING, unit="time", source="slip/half_120_4.catalogue.csv.xz")
-    for step, path in paths.items():
-        events = faults.loaded(path)
-        within = events["t_end"] <= end
-        excess = faults.excess_of(path)[within]
-        events = events[within]
-        events.header["time_span"] = end - LOADING
-        run, source = faults.Run(path, "leaky", 120, 4, events), str(path.relative_to(FOLDER))
-        yield Value(f"leaky_step.drops.{step}", *faults.rate_of(run, events["size"] >= 1e-4), "1/1000", 1, source)
-        yield Value(f"leaky_step.slips.{step}", *faults.rate_of(run, (events["size"] >= 0.1) & (excess > slip.SLIP)), "1/1000", 1, source)
-        row, = summary.rows_of(postproc, [path], ["1e-4"], [faults.RANGE], begin=LOADING, end=end, shortest=0)
-        for key, column, error in (("exponent", f"exponent_{faults.RANGE}", f"error_{faults.RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"),
-                                   ("B", "B_0.0001", None)):
-            yield Value(f"leaky_step.{key}.{step}", float(row[column]), float(row[error]) if error else math.nan, "", 1, source)
 
 
 def rupture_values():
@@ -202,7 +166,3 @@ def rupture_values():
     pylith = rupture_benchmark.summary(stations_of("TPV205", lambda row: row["reference"].startswith("PyLith") and row["spacing"] == "50"))
     for key in ("arrival", "slip"):
         yield Value(f"tpv205.pylith.{key}", pylith[key], source=FLAT["TPV205"])
-
-
-def all_values(postproc):
-    return [*leaky_values(postproc), *rupture_values()]
