@@ -31,8 +31,8 @@ KEYS = (
 FILES = (
     ("values.csv", "numbers of sentences", "tables.py --values", "all"),
     ("rates.* velocity.* estimators.* ruptures.*", "figures of the article, with their data", "faults.py", "article"),
-    ("picked.csv ruptures_tests.csv bursts.csv trapped.csv spectrum.csv variants.csv", "what needs whole series of a run", "faults.py publish, faults.py discs",
-     "article"),
+    ("picked.csv ruptures_tests.csv bursts.csv trapped.csv spectrum.csv variants.csv", "what needs whole series of a run",
+     "faults.py publish, faults.py discs", "article"),
     ("faults/*", "catalogues and ruptures of the three faults", "faults.py publish, publish.py", "article, paper"),
     ("campaign/*", "the absorbing fault at all lengths, drops and ruptures", "publish.py", "campaign"),
     ("validation/*", "wider blocks", "publish.py", "validation, paper"),
