@@ -17,6 +17,7 @@
 #include "update.h"
 
 #include "friction/force_laws.h"
+#include "friction/friction_contact.h"
 #include "lsm_contact_recorder.h"
 #include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
@@ -59,35 +60,26 @@ void PairLSMFree::compute(int eflag, int vflag)
 template <class Recorder> void PairLSMFree::loop()
 {
   if (domain->dimension == 3)
-    loop<Recorder, true>();
+    loop<Recorder, 3>();
   else
-    loop<Recorder, false>();
+    loop<Recorder, 2>();
 }
 
-template <class Recorder, bool DIM3> void PairLSMFree::loop()
+template <class Recorder, int DIM> void PairLSMFree::loop()
 {
-  double **x = atom->x;
   double **f = atom->f;
-  const double *radius = contact_radii();
-  const int *type = atom->type;
   const int nlocal = atom->nlocal;
   const bool viscous = has_dashpots();
   Recorder recorder(*this, update->setupflag != 0);
 
   for (int n = 0; n < near.size(); n++) {
-    const int i = near.pair(near[n]).i, j = near.pair(near[n]).j;
-    const double delx = x[i][0] - x[j][0];
-    const double dely = x[i][1] - x[j][1];
-    double delz = 0.0;
-    double rsq = delx * delx + dely * dely;
-    if constexpr (DIM3) {
-      delz = x[i][2] - x[j][2];
-      rsq += delz * delz;
-    }
-    const double r0 = radius[i] + radius[j];
+    const LSMContacts::Pair &pair = near.pair(near[n]);
+    const double *const d = near.vector(near[n]), r0 = pair.r0;
+    const double rsq = LSM::friction_contact::square_of<DIM>(d);
     if (rsq >= r0 * r0) continue;
 
-    const double kij = k[type[i]][type[j]];
+    const int i = pair.i, j = pair.j;
+    const double kij = k.at(pair.types);
     const double r = sqrt(rsq);
     double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
     const bool both = newton_pair || j < nlocal;
@@ -98,19 +90,13 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
       velocity->power -= (both ? 1.0 : 0.5) * more * rate;
     }
 
-    f[i][0] += delx * fpair;
-    f[i][1] += dely * fpair;
-    if constexpr (DIM3) f[i][2] += delz * fpair;
-    if (both) {
-      f[j][0] -= delx * fpair;
-      f[j][1] -= dely * fpair;
-      if constexpr (DIM3) f[j][2] -= delz * fpair;
-    }
+    for (int c = 0; c < DIM; c++) f[i][c] += d[c] * fpair;
+    for (int c = 0; both && c < DIM; c++) f[j][c] -= d[c] * fpair;
     if constexpr (Recorder::records) {
       const double e = LSM::Spring::energy(kij, r - r0);
       recorder.springs(both ? 1.0 : 0.5, e, 0.0);
       if constexpr (Recorder::tallies)
-        ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
+        ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, d[0], d[1], DIM == 3 ? d[DIM - 1] : 0.0);
     }
   }
   recorder.finish();

@@ -89,7 +89,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   void coefficients_in(LSMRestartFile);
   void print_coeff(FILE *, int, int);
   template <class Recorder> void loop();
-  template <class Recorder, bool DIM3> void loop();
+  template <class Recorder, int DIM> void loop();
 };
 
 }    // namespace LAMMPS_NS
