@@ -80,14 +80,6 @@ PairLSMFriction::~PairLSMFriction()
   modify->delete_fix(fix_history ? "NEIGH_HISTORY_LSM" : "NEIGH_HISTORY_LSM_DUMMY");
 }
 
-double PairLSMFriction::drag(const LSMContacts::Pair &pair, double r, double spring, double share)
-{
-  double rate;
-  const double more = dashpot(pair.i, pair.j, r, spring, rate);
-  velocity->power -= share * more * rate;
-  return more;
-}
-
 void PairLSMFriction::tally(const LSMContacts::Pair &pair, double energy, const Vector &force,
                             const Vector &del)
 {
@@ -108,9 +100,20 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
 {
   const Step step = {update->setupflag != 0, rounding(domain), update->dt * time_ratio,
                      locate_onset != 0};
-  const LSMFriction::Scene scene = {
-      near, *this,        *this, atom->x[0], atom->f[0],    atom->nlocal, newton_pair != 0,
-      step, near_reach(), k,     &table[0],  has_dashpots()};
+  const LSMFriction::Scene scene = {near,
+                                    *this,
+                                    *this,
+                                    atom->x[0],
+                                    atom->f[0],
+                                    atom->nlocal,
+                                    newton_pair != 0,
+                                    step,
+                                    near_reach(),
+                                    k,
+                                    &table[0],
+                                    delay,
+                                    has_dashpots() ? velocity->now(0) : nullptr,
+                                    has_dashpots() ? &velocity->power : nullptr};
   if (domain->dimension == 3)
     LSMFriction::Loop<Law, Recorder, 3>(scene).run();
   else

@@ -55,7 +55,6 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
   class FixDummy *fix_dummy = nullptr;
   class FixLSMHistory *fix_history = nullptr;
 
-  double drag(const LSMContacts::Pair &, double r, double spring, double share) override;
   void tally(const LSMContacts::Pair &, double energy, const LSM::friction_contact::Vector &force,
              const LSM::friction_contact::Vector &del) override;
   template <class Law, class Recorder> void run_loop();

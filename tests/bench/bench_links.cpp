@@ -83,6 +83,12 @@ void rows(benchmark::State &state, const Law &law) {
 }
 
 void elastic(benchmark::State &state) { rows(state, LSMLinkKernel::Elastic{1.0}); }
+void dashpots(benchmark::State &state) {
+  const std::vector<double> velocity(Fault::of(static_cast<int>(state.range(0))).x.size(), 1e-3);
+  double lost = 0.0;
+  rows(state,
+       LSMLinkKernel::KelvinVoigt<LSMLinkKernel::Elastic>{{1.0}, 0.005, velocity.data(), &lost});
+}
 void breakable(benchmark::State &state) { rows(state, LSMLinkKernel::Breakable{{1.0}, 2.0}); }
 
 void plain_loop(benchmark::State &state) {
@@ -121,6 +127,7 @@ void make_lists(benchmark::State &state) {
 
 const std::vector<int64_t> lengths = {120, 945, 1890, 3780};
 BENCHMARK(elastic)->ArgNames({"length", "avx2"})->ArgsProduct({lengths, {1, 0}});
+BENCHMARK(dashpots)->ArgNames({"length", "avx2"})->ArgsProduct({lengths, {1}});
 BENCHMARK(breakable)->ArgNames({"length", "avx2"})->ArgsProduct({lengths, {1}});
 BENCHMARK(plain_loop)->ArgName("length")->ArgsProduct({lengths});
 BENCHMARK(make_lists)->ArgName("length")->ArgsProduct({lengths});

@@ -16,9 +16,6 @@ namespace LSMFriction {
    public:
     virtual ~Host() noexcept(false) {}    // as LAMMPS' own base classes
 
-    /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Counts
-    /// this rank's share of its power. Called only if the scene is viscous.
-    virtual double drag(const LSMContacts::Pair &, double r, double spring, double share) = 0;
     /// Tallies LAMMPS' own energy and virial, from the force on the first particle and the vector
     /// to it from the second. Called only by a recorder that tallies.
     virtual void tally(const LSMContacts::Pair &, double energy, const friction::Vector &force,

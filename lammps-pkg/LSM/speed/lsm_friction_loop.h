@@ -32,7 +32,9 @@ namespace LSMFriction {
                                       ///< contact have a state
     const LSMTypePairs<double> &k;    ///< normal stiffness
     const LSMTypePairs<double> *coefficients;    ///< by parameter of the law
-    bool viscous;                                ///< contacts have dashpots
+    const LSMTypePairs<double> &delay;           ///< retardation time of dashpots
+    const double *velocity;                      ///< for these; null if there are none
+    double *power;                               ///< what they dissipate is added
   };
 
   /// The loop over the pairs that touch, compiled for each law, recorder and number of dimensions.
@@ -45,8 +47,7 @@ namespace LSMFriction {
     explicit Loop(const Scene &of) :
         scene(of), contacts(of.contacts), states(of.contacts.state(0)), x(of.x), f(of.f),
         nlocal(of.nlocal), reach_sq(of.reach * of.reach), step(of.step),
-        side_by_side(DIM == 2 && Law::state_size == 0 && !Recorder::tallies && !step.setup &&
-                     !of.viscous),
+        side_by_side(DIM == 2 && Law::state_size == 0 && !Recorder::tallies && !step.setup),
         recorder(of.energies, step.setup)
     {
     }
@@ -67,6 +68,7 @@ namespace LSMFriction {
               const bool both = is_both(site);
               const Push push = block.push(lane);
               if constexpr (Recorder::records) record(site, false, push, both);
+              if (scene.velocity) power += (both ? 1.0 : 0.5) * block.power[lane];
               friction::keep<Law, DIM>(push.step, contacts.vector(place), h);
               add_forces(site, push, both);
               continue;
@@ -85,6 +87,7 @@ namespace LSMFriction {
         }
       }
       recorder.finish();
+      if (scene.velocity) *scene.power += power;
     }
 
    private:
@@ -101,6 +104,7 @@ namespace LSMFriction {
     const friction::Step step;
     const bool side_by_side;
     Recorder recorder;
+    double power = 0.0;    // this rank's share of what dashpots dissipate
 
     struct Geometry {
       double rsq, r, n[DIM];
@@ -111,6 +115,19 @@ namespace LSMFriction {
         for (int c = 0; c < DIM; c++) n[c] = d[c] * rinv;
       }
     };
+
+    // Repulsion by the dashpot of a contact whose spring repels with `spring`, and its power. d is
+    // the vector, u the velocity of the first particle against the second.
+    [[gnu::always_inline]] static double drag(const Geometry &g, const double *d, const double *u,
+                                              double viscosity, double spring, double &lost)
+    {
+      double rate = d[0] * u[0] + d[1] * u[1];
+      if constexpr (DIM == 3) rate += d[2] * u[2];
+      rate = g.r > 0.0 ? rate / g.r : 0.0;
+      const double force = LSM::contact_dashpot_force(viscosity, rate, spring);
+      lost = -force * rate;
+      return force;
+    }
 
     using Done = std::conditional_t<DIM == 3, friction::VectorStep, LSM::FrictionStep>;
     struct Push {
@@ -141,6 +158,7 @@ namespace LSMFriction {
       double r0[LANES], k[LANES], coefficients[std::size(Law::parameters)][LANES];
       double rsq[LANES], fx[LANES], fy[LANES], normal[LANES], tangential[LANES];
       double slip[LANES], dissipated[LANES];
+      double viscosity[LANES], u[DIM][LANES], power[LANES];    // velocity of i against j
 
       Push push(int n) const
       {
@@ -148,7 +166,7 @@ namespace LSMFriction {
         const LSM::FrictionStep s = {h[Is::XI][n], 0.0, slip[n], dissipated[n], slides};
         return {{fx[n], fy[n]}, normal[n], tangential[n], s};
       }
-      [[gnu::always_inline]] void solve(double time)
+      template <bool VISCOUS> [[gnu::always_inline]] void solve(double time)
       {
         for (int n = 0; n < LANES; n++) {
           const double del[] = {delx[n], dely[n]};
@@ -156,10 +174,15 @@ namespace LSMFriction {
           const auto c = LSM::coefficients_of<Law>([this, n](std::size_t p) {
             return coefficients[p][n];
           });
+          double fn = LSM::contact_normal_force(k[n], g.r, r0[n]);
+          if constexpr (VISCOUS) {
+            const double between[] = {u[0][n], u[1][n]};
+            fn += drag(g, del, between, viscosity[n], fn, power[n]);
+          }
           const LSM::FrictionContact contact{
-              LSM::contact_normal_force(k[n], g.r, r0[n]), h[Is::XI][n],
-              friction::displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]),
-              time, Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES};
+              fn, h[Is::XI][n],
+              friction::displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]), time,
+              Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES};
           const Push done =
               push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
           rsq[n] = g.rsq;
@@ -175,7 +198,7 @@ namespace LSMFriction {
           dissipated[n] = done.step.dissipated;
         }
       }
-      LSM_AVX2 void solve_avx2(double time) { solve(time); }
+      template <bool VISCOUS> LSM_AVX2 void solve_avx2(double time) { solve<VISCOUS>(time); }
     };
     struct NoBlock {};
     std::conditional_t<DIM == 2, Block, NoBlock> block;
@@ -201,22 +224,46 @@ namespace LSMFriction {
         block.k[lane] = scene.k.at(site.types);
         for (std::size_t p = 0; p < std::size(Law::parameters); p++)
           block.coefficients[p][lane] = scene.coefficients[p].at(site.types);
+        if (scene.velocity) {
+          block.viscosity[lane] = viscosity_of(site);
+          double u[DIM];
+          velocity_between(site, u);
+          for (int c = 0; c < DIM; c++) block.u[c][lane] = u[c];
+        }
       }
+      scene.velocity ? solve<true>() : solve<false>();
+    }
+    template <bool VISCOUS> void solve()
+    {
       if (LSMLinkKernel::has_avx2())
-        block.solve_avx2(step.time);
+        block.template solve_avx2<VISCOUS>(step.time);
       else
-        block.solve(step.time);
+        block.template solve<VISCOUS>(step.time);
     }
 
     bool is_both(const Site &site) const { return scene.newton || site.j < nlocal; }
 
-    [[gnu::always_inline]] double normal_force(const Site &site, double r, bool apart,
-                                               bool both) const
+    double viscosity_of(const Site &site) const
     {
-      const double fn = LSM::contact_normal_force(scene.k.at(site.types), r, site.r0);
-      return scene.viscous && !apart && r > 0.0
-          ? fn + scene.host.drag(site, r, fn, both ? 1.0 : 0.5)
-          : fn;
+      return scene.k.at(site.types) * scene.delay.at(site.types);
+    }
+    void velocity_between(const Site &site, double (&u)[DIM]) const
+    {
+      const double *const vi = scene.velocity + 3 * static_cast<size_t>(site.i);
+      const double *const vj = scene.velocity + 3 * static_cast<size_t>(site.j);
+      for (int c = 0; c < DIM; c++) u[c] = vi[c] - vj[c];
+    }
+
+    [[gnu::always_inline]] double normal_force(const Site &site, const double *d, const Geometry &g,
+                                               bool apart, bool both)
+    {
+      const double fn = LSM::contact_normal_force(scene.k.at(site.types), g.r, site.r0);
+      if (!scene.velocity || apart) return fn;
+      double u[DIM], lost;
+      velocity_between(site, u);
+      const double more = drag(g, d, u, viscosity_of(site), fn, lost);
+      power += (both ? 1.0 : 0.5) * lost;
+      return fn + more;
     }
 
     [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
@@ -239,7 +286,7 @@ namespace LSMFriction {
       friction::Along<DIM> dxi{};
       const bool moved = friction::follow<Law, DIM>(step, c, d, g.r, r0, touch, h, contact, dxi);
       const bool both = is_both(site);
-      contact.fn = normal_force(site, g.r, apart, both);
+      contact.fn = normal_force(site, d, g, apart, both);
       const Push push = push_of(g, apart ? 0.0 : g.r - r0, scene.k.at(site.types), c.kt, contact.fn,
                                 friction::next<Law, DIM>(moved || apart, c, contact, d, dxi, h));
       if constexpr (Recorder::records) record(site, apart, push, both);
