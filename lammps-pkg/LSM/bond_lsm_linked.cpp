@@ -161,7 +161,7 @@ void BondLSMLinked::collect()
     segments.push_back(
         {type, first_only,
          LSMLinkRows::make_rows(owned, std::move(sorted), nlocal, nlocal + atom->nghost, first_only,
-                                ratio[type] == 0.0)});
+                                ratio[type] == 0.0, stride(type))});
   }
   collected_at = neighbor->lastcall;
 }
@@ -195,17 +195,22 @@ template <int DIM> void BondLSMLinked::eval()
 
 template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
 {
-  if (has_dashpot(s.type))
-    return add_forces<DIM>(s,
-                           LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
-                                                           velocity->now(0), &velocity->power});
-  return add_forces<DIM>(s, law);
+  if (!has_dashpot(s.type)) return add_forces<DIM>(s, law, atom->x[0]);
+  const LSMLinkKernel::KelvinVoigt<Law> both{law, k[s.type] * delay[s.type], &velocity->power};
+  return add_forces<DIM>(s, both, velocity->now(0));
 }
 
-template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s, const Law &law)
+template <int DIM, class Law>
+double BondLSMLinked::add_forces(const Segment &s, const Law &law, const double *x)
 {
-  return LSMLinkKernel::forces<DIM>(s.rows, law, s.first_only, atom->x[0], atom->f[0], broken_now,
-                                    avx2);
+  return LSMLinkKernel::forces<DIM>(s.rows, law, s.first_only, x, atom->f[0], broken_now, avx2);
+}
+
+// the numbers of a particle in the array that the kernel reads
+int BondLSMLinked::stride(int type) const
+{
+  if (!has_dashpot(type)) return 3;
+  return domain->dimension == 3 ? LSMLinkKernel::Motion<3>::SIZE : LSMLinkKernel::Motion<2>::SIZE;
 }
 
 // Broken links are listed for fix LSM_BREAK; before the next evaluation of the forces the list is
@@ -213,7 +218,8 @@ template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s,
 void BondLSMLinked::note_broken(Segment &segment)
 {
   for (const LSMLinkKernel::Place &place : broken_now) {
-    const int i = segment.rows.particle[place.row] / 3, j = segment.rows.other[place.link] / 3;
+    const int i = segment.rows.particle[place.row] / segment.rows.stride,
+              j = segment.rows.other[place.link] / segment.rows.stride;
     for (int m = 0; m < neighbor->nbondlist; m++) {
       int *const bond = neighbor->bondlist[m];
       if (bond[2] == segment.type && MIN(bond[0], bond[1]) == MIN(i, j) &&
@@ -256,7 +262,8 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
         const double rest = s.rows.rest[stack.rest + (stack.rest_step ? n : 0)];
         if (rest == LSMLinkRows::NO_LINK) continue;
         const int row = n / (stack.length * LANES) * LANES + n % LANES;
-        act(s, s.rows.particle[stack.row + row] / 3, s.rows.other[stack.link + n] / 3, rest);
+        act(s, s.rows.particle[stack.row + row] / s.rows.stride,
+            s.rows.other[stack.link + n] / s.rows.stride, rest);
       }
 }
 

@@ -70,6 +70,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   class FixLSMVelocity *velocity = nullptr;    // null if no link is viscous
 
   bool has_dashpot(int type) const;
+  int stride(int type) const;
   void find_largest_radius();
   void allocate();
   void coefficients_in(class LSMRestartFile);
@@ -77,7 +78,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void collect();
   template <int DIM> void eval();
   template <int DIM, class Law> double forces_of(const Segment &, const Law &);
-  template <int DIM, class Law> double add_forces(const Segment &, const Law &);
+  template <int DIM, class Law> double add_forces(const Segment &, const Law &, const double *x);
   void note_broken(Segment &);
   template <class Act> void for_each_link(const Act &) const;
   void tally();

@@ -14,6 +14,7 @@
 #include "integrate.h"
 #include "lsm_fixes.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_link_kernel.h"
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "math_eigen.h"
@@ -134,25 +135,27 @@ void FixLSMNVE::collect()
   if (nlocal > from) others.push_back({from, nlocal});
 }
 
-template <int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::set_kernels()
+template <int DIM, FixLSMNVE::Kind KIND, bool CLEARS> void FixLSMNVE::set_kernels()
 {
-  initial_chosen = &FixLSMNVE::move<INITIAL, DIM, PLAIN, CLEARS>;
-  final_chosen = &FixLSMNVE::move<FINAL, DIM, PLAIN, false>;
-  both_chosen = &FixLSMNVE::move<FINAL | INITIAL, DIM, PLAIN, CLEARS>;
+  initial_chosen = &FixLSMNVE::move<INITIAL, DIM, KIND, CLEARS>;
+  final_chosen = &FixLSMNVE::move < FINAL, DIM, KIND == ANY ? ANY : PLAIN, false > ;
+  both_chosen = &FixLSMNVE::move<FINAL | INITIAL, DIM, KIND, CLEARS>;
 }
 
-// chooses the kernels; most scenes need only a plain one, without decisions for each particle
+// most scenes need kernels without decisions for each particle
+template <int DIM> void FixLSMNVE::choose_for()
+{
+  if (counts_work())
+    set_kernels<DIM, ANY, true>();
+  else if (ahead)
+    clears ? set_kernels<DIM, AHEAD, true>() : set_kernels<DIM, AHEAD, false>();
+  else
+    clears ? set_kernels<DIM, PLAIN, true>() : set_kernels<DIM, PLAIN, false>();
+}
+
 void FixLSMNVE::choose()
 {
-  const bool plain = !counts_work() && !ahead;
-  if (domain->dimension == 3)
-    set_kernels<3, false, true>();
-  else if (!plain)
-    set_kernels<2, false, true>();
-  else if (clears)
-    set_kernels<2, true, true>();
-  else
-    set_kernels<2, true, false>();
+  domain->dimension == 3 ? choose_for<3>() : choose_for<2>();
   if (counts_work()) both_chosen = nullptr;
 
   // fixes that may read velocities between the end of a step and the beginning of the next
@@ -216,9 +219,10 @@ void FixLSMNVE::setup(int /*vflag*/)
 // forces, which are known only after the kick by these forces. They are extrapolated with the
 // forces of the step before, that is, linearly through the velocities of the last two half steps,
 // which is of second order and needs no further storage.
-template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
+template <int PARTS, int DIM, FixLSMNVE::Kind KIND, bool CLEARS> void FixLSMNVE::move()
 {
-  const bool work = !PLAIN && counts_work(), clear = CLEARS && (PLAIN || clears);
+  using Motion = LSMLinkKernel::Motion<DIM>;
+  const bool work = KIND == ANY && counts_work(), clear = CLEARS && (KIND != ANY || clears);
   const double dt =
       dtv;    // a copy, as the compiler must assume that stores of positions change the member
   for (Stretch &stretch : stretches) {
@@ -228,16 +232,18 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
     double *v = atom->v[stretch.first];
     double *f = atom->f[stretch.first];
     double *next = nullptr;
-    if constexpr (!PLAIN && (PARTS & INITIAL) != 0)
+    if constexpr (KIND != PLAIN && (PARTS & INITIAL) != 0)
       if (ahead) next = ahead->now(stretch.first);
     const double *kick = &half_kick[stretch.first];
     const double *const end = &half_kick[0] + stretch.last;
 
     for (; kick < end; kick++, x += 3, v += 3, f += 3) {
-      double w[DIM], vsq = 0.0;
+      // all is read before anything is stored, which might change it for all that the compiler knows
+      double w[DIM], push[DIM], vsq = 0.0;
       for (int c = 0; c < DIM; c++) w[c] = v[c];
+      for (int c = 0; c < DIM; c++) push[c] = *kick * f[c];
       if constexpr (PARTS & FINAL) {
-        for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
+        for (int c = 0; c < DIM; c++) w[c] += push[c];
         if (work)
           for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
         for (int c = 0; c < DIM; c++) w[c] *= factor;
@@ -246,17 +252,19 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
         if (work)
           for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
         for (int c = 0; c < DIM; c++) w[c] *= factor;
-        for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
+        for (int c = 0; c < DIM; c++) w[c] += push[c];
         double square = 0.0;
         for (int c = 0; c < DIM; c++) square += w[c] * w[c];
         most = MAX(most, square);
         double to[DIM];
         for (int c = 0; c < DIM; c++) to[c] = x[c] + dt * w[c];
+        double then[DIM];
+        for (int c = 0; c < DIM; c++) then[c] = (w[c] + push[c]) * factor;
         for (int c = 0; c < DIM; c++) x[c] = to[c];
-        if (next) {
-          for (int c = 0; c < DIM; c++) next[c] = w[c] + *kick * f[c];
-          for (int c = 0; c < DIM; c++) next[c] *= factor;
-          next += 3;
+        if (KIND == AHEAD || next) {
+          for (int c = 0; c < DIM; c++) next[c] = then[c];
+          for (int c = 0; c < DIM; c++) next[Motion::POSITION + c] = to[c];
+          next += Motion::SIZE;
         }
       }
       for (int c = 0; c < DIM; c++) v[c] = w[c];

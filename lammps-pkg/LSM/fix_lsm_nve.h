@@ -89,8 +89,10 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void (FixLSMNVE::*both_chosen)() = nullptr;    // null if no half may be deferred
 
   bool counts_work() const { return record_work && (viscous || nu_least > 0.0); }
-  template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void move();
-  template <int DIM, bool PLAIN, bool CLEARS> void set_kernels();
+  enum Kind { PLAIN, AHEAD, ANY };    // nothing else, extrapolated velocities, that and work
+  template <int PARTS, int DIM, Kind KIND, bool CLEARS> void move();
+  template <int DIM, Kind KIND, bool CLEARS> void set_kernels();
+  template <int DIM> void choose_for();
   void choose();
   void collect();
   bool may_clear() const;

@@ -239,9 +239,9 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
     for (int i : p.atoms) {
       v[i][0] = p.side * vx;
       v[i][1] = p.vy;
-      if (ahead) std::copy_n(now, domain->dimension, ahead->now(i));
       x[i][0] += p.side * dux;
       x[i][1] += duy;
+      if (ahead) ahead->set(i, now);
     }
   }
   ux += dux;

@@ -10,9 +10,11 @@
 #include "fix_lsm_nve.h"
 #include "force.h"
 #include "lsm_fixes.h"
+#include "lsm_link_kernel.h"
 #include "lsm_mover.h"
 #include "lsm_scene.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "pair_lsm_free.h"
 #include "update.h"
 
@@ -24,20 +26,26 @@ using namespace FixConst;
 
 static constexpr const char *ID = "LSM_VELOCITY";
 
+static int size(const Domain *domain)
+{
+  return domain->dimension == 3 ? LSMLinkKernel::Motion<3>::SIZE : LSMLinkKernel::Motion<2>::SIZE;
+}
+
 FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
   has_output(&work_dashpots);
   create_attribute = 1;
-  take_velocities(0);
+  take_velocities();
 }
 
 FixLSMVelocity *FixLSMVelocity::of(LAMMPS *lmp)
 {
   Modify *const modify = lmp->modify;
   Fix *any = modify->get_fix_by_id(ID);
-  // arguments of fix STORE/ATOM: three numbers per particle, not sent with new ghosts, but kept in
-  // restart files
-  if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY 3 0 0 1");
+  // arguments of fix STORE/ATOM: numbers per particle, not sent with new ghosts, but kept in restart
+  // files
+  if (!any)
+    any = modify->add_fix(fmt::format("{} all LSM_VELOCITY {} 0 0 1", ID, size(lmp->domain)));
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
     lmp->error->all(FLERR, Error::NOLASTLINE,
@@ -78,6 +86,11 @@ void FixLSMVelocity::init()
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
                "whose blocks move faster than in model time",
                leap->id);
+  all_may_move = false;
+  for (const auto &other : modify->get_fix_list())
+    if (!LSMScene::is_ours(other) &&
+        (modify->get_fix_mask(other) & (INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE)))
+      all_may_move = true;
   extrapolated = 0;
   for (const auto *mover : lsm_fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
   if (lsm_fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(lmp))
@@ -92,28 +105,54 @@ void FixLSMVelocity::init()
 void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 {
   if (!used) return;
-  if (LSMScene::is_rerun(lmp) || fingerprint() != known) take_velocities(0);
-  pre_force(0);
+  if (LSMScene::is_rerun(lmp) || fingerprint() != known) take_velocities();
+  send(true);
 }
 
 // particles moved by other fixes keep these velocities, as there are no better ones
 void FixLSMVelocity::post_integrate()
 {
   running = true;
-  if (used) take_velocities(extrapolated);
+  if (!used) return;
+  for (int i : others) set_arrays(i);
 }
 
-void FixLSMVelocity::take_velocities(int unless)
+void FixLSMVelocity::take_velocities()
 {
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & unless)) set_arrays(i);
+  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
 }
 
 void FixLSMVelocity::pre_force(int /*vflag*/)
 {
-  if (!used) return;
+  if (used) send(all_may_move || neighbor->ago == 0);
+}
+
+// Brings velocities to ghosts, and takes the positions of `all` particles, or of those that the
+// fixes which moved them have not set.
+void FixLSMVelocity::send(bool all)
+{
   power = 0.0;
   comm->forward_comm_array(domain->dimension, astore);
+  const int nlocal = atom->nlocal, end = nlocal + atom->nghost;
+  for (int i = all ? 0 : nlocal; i < end; i++) take_position(i);
+  if (!all) {
+    for (int i : others) take_position(i);
+    return;
+  }
+  others.clear();
+  for (int i = 0; i < nlocal; i++)
+    if (!(atom->mask[i] & extrapolated)) others.push_back(i);
+}
+
+void FixLSMVelocity::take_position(int i)
+{
+  std::copy_n(atom->x[i], domain->dimension, astore[i] + size(domain) / 2);
+}
+
+void FixLSMVelocity::set(int i, const double *velocity)
+{
+  std::copy_n(velocity, domain->dimension, astore[i]);
+  take_position(i);
 }
 
 // work: trapezoidal rule over the step
@@ -155,9 +194,25 @@ std::uint64_t FixLSMVelocity::fingerprint() const
   return lsm_total(mine, world);
 }
 
+// what is kept are the velocities, three numbers in two dimensions, too
+int FixLSMVelocity::pack_restart(int i, double *buf)
+{
+  buf[0] = 4.0;
+  buf[3] = 0.0;
+  std::copy_n(astore[i], domain->dimension, buf + 1);
+  return 4;
+}
+
+void FixLSMVelocity::unpack_restart(int i, int nth)
+{
+  const double *from = atom->extra[i];
+  while (nth-- > 0) from += static_cast<int>(*from);
+  std::copy_n(from + 1, domain->dimension, astore[i]);
+}
+
 void FixLSMVelocity::set_arrays(int i)
 {
-  memcpy(astore[i], atom->v[i], 3 * sizeof(double));
+  std::copy_n(atom->v[i], domain->dimension, astore[i]);
 }
 
 // In a run velocities are complete when a restart file is written; between two runs, or pieces of

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Internal helper of viscous links and contacts: velocities of the time at
-// which forces are evaluated, and the energy that the dashpots take
+// which forces are evaluated, beside positions, and the energy that the
+// dashpots take
 
 #ifdef FIX_CLASS
 // clang-format off
@@ -17,9 +18,9 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-/// Stores velocities at the time of the positions, of the particles of this rank and of ghosts. The
-/// fixes that move particles set them, as LAMMPS' own velocities are half a step old when forces
-/// are evaluated.
+/// Stores velocities at the time of the positions, and the positions beside them, of the particles
+/// of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move particles set both, as
+/// LAMMPS' own velocities are half a step old when forces are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
@@ -31,6 +32,8 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
   static FixLSMVelocity *in_use(LAMMPS *);
 
   double *now(int i) const { return astore[i]; }
+  /// Sets velocity and position of a particle that has been moved.
+  void set(int i, const double *velocity);
   /// Rate of the distance r of two particles.
   double rate(int i, int j, double r) const;
   /// This rank's share of the power dissipated by dashpots in this evaluation, to which force
@@ -46,6 +49,10 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
   void post_force(int) override;
   void post_run() override;
   void set_arrays(int) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override { return 4; }
+  int size_restart(int) override { return 4; }
   void write_restart(FILE *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
@@ -54,13 +61,17 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
   }
 
  private:
-  bool used = false;       // a force style is viscous
-  bool running = false;    // from the first step of a run to its end
-  int extrapolated = 0;    // bits of groups whose velocities are set by the fixes that move them
+  bool used = false;            // a force style is viscous
+  bool running = false;         // from the first step of a run to its end
+  int extrapolated = 0;         // bits of groups that are set by the fixes that move them
+  bool all_may_move = true;     // other fixes may move any of them as well
+  std::vector<int> others;      // particles that the fixes do not set, since the last neighbor list
   double power_before = 0.0;    // power in the previous evaluation
   std::uint64_t known = 0;      // fingerprint of the velocities that belong to `now`
   std::uint64_t fingerprint() const;
-  void take_velocities(int unless);
+  void take_velocities();
+  void take_position(int);
+  void send(bool all);
 };
 
 }    // namespace LAMMPS_NS

@@ -21,6 +21,8 @@ struct Fault {
   std::vector<double> x, f;
   std::vector<LSMLinkRows::Link> links, to_ghosts;
   LSMLinkRows::Rows rows, rows_to_ghosts;
+  std::vector<double> motion;  // LSMLinkKernel::Motion, with rows of its stride
+  LSMLinkRows::Rows moving, moving_to_ghosts;
 
   explicit Fault(int length) {
     LSM::PackingSettings settings;
@@ -50,8 +52,15 @@ struct Fault {
     std::vector<int> owned(particles);
     std::iota(owned.begin(), owned.end(), 0);
     const int all = static_cast<int>(x.size() / 3);
-    rows = LSMLinkRows::make_rows(owned, links, particles, all, false, true);
-    rows_to_ghosts = LSMLinkRows::make_rows(owned, to_ghosts, particles, all, true, true);
+    const auto make = [&](const std::vector<LSMLinkRows::Link> &some, bool mixed, int stride) {
+      return LSMLinkRows::make_rows(owned, some, particles, all, mixed, true, stride);
+    };
+    rows = make(links, false, 3);
+    rows_to_ghosts = make(to_ghosts, true, 3);
+    using Motion = LSMLinkKernel::Motion<2>;
+    moving = make(links, false, Motion::SIZE);
+    moving_to_ghosts = make(to_ghosts, true, Motion::SIZE);
+    for (int i = 0; i < all; ++i) motion.insert(motion.end(), {1e-3, 0.0, x[3 * i], x[3 * i + 1]});
   }
 
   static Fault &of(int length) {
@@ -72,11 +81,12 @@ void rows(benchmark::State &state, const Law &law) {
   Fault &fault = Fault::of(static_cast<int>(state.range(0)));
   std::vector<LSMLinkKernel::Place> broken;
   const bool avx2 = state.range(1) && LSMLinkKernel::has_avx2();
+  const double *const x = (Law::viscous ? fault.motion : fault.x).data();
+  const auto &inside = Law::viscous ? fault.moving : fault.rows;
+  const auto &across = Law::viscous ? fault.moving_to_ghosts : fault.rows_to_ghosts;
   for (auto _ : state) {
-    double energy = LSMLinkKernel::forces<2>(fault.rows, law, false, fault.x.data(), fault.f.data(),
-                                             broken, avx2);
-    energy += LSMLinkKernel::forces<2>(fault.rows_to_ghosts, law, true, fault.x.data(),
-                                       fault.f.data(), broken, avx2);
+    double energy = LSMLinkKernel::forces<2>(inside, law, false, x, fault.f.data(), broken, avx2);
+    energy += LSMLinkKernel::forces<2>(across, law, true, x, fault.f.data(), broken, avx2);
     benchmark::DoNotOptimize(energy);
   }
   report(state, fault);
@@ -84,10 +94,8 @@ void rows(benchmark::State &state, const Law &law) {
 
 void elastic(benchmark::State &state) { rows(state, LSMLinkKernel::Elastic{1.0}); }
 void dashpots(benchmark::State &state) {
-  const std::vector<double> velocity(Fault::of(static_cast<int>(state.range(0))).x.size(), 1e-3);
   double lost = 0.0;
-  rows(state,
-       LSMLinkKernel::KelvinVoigt<LSMLinkKernel::Elastic>{{1.0}, 0.005, velocity.data(), &lost});
+  rows(state, LSMLinkKernel::KelvinVoigt<LSMLinkKernel::Elastic>{{1.0}, 0.005, &lost});
 }
 void breakable(benchmark::State &state) { rows(state, LSMLinkKernel::Breakable{{1.0}, 2.0}); }
 
@@ -121,7 +129,7 @@ void make_lists(benchmark::State &state) {
   std::iota(owned.begin(), owned.end(), 0);
   for (auto _ : state)
     benchmark::DoNotOptimize(LSMLinkRows::make_rows(
-        owned, fault.links, fault.particles, static_cast<int>(fault.x.size() / 3), false, true));
+        owned, fault.links, fault.particles, static_cast<int>(fault.x.size() / 3), false, true, 3));
   report(state, fault);
 }
 

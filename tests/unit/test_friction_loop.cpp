@@ -23,7 +23,6 @@ constexpr double stiffness = 1.0, kt = 0.5, mu = 0.3, dt = 0.05;
 
 /// Counts the calls.
 struct Host : LSMFriction::Host {
-  double drag(const LSMContacts::Pair &, double, double, double) override { return 0.0; }
   void tally(const LSMContacts::Pair &, double energy, const Vector &force,
              const Vector &del) override {
     energies += energy;
@@ -40,11 +39,13 @@ struct Rows {
   std::array<Vector, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of the rows, in space
   std::vector<double> x, f, radius;
   LSMContacts contacts;
-  LSMTypePairs<double> k, coefficients[LSM::CoulombStatic::state_size + 8];
+  LSMTypePairs<double> k, delay, coefficients[LSM::CoulombStatic::state_size + 8];
+  double power = 0.0;  // of dashpots, all evaluations
   LSMEnergySource energies;
   Host host;
   int n = 0;
   double turns = 2.0 * std::acos(-1.0);
+  std::vector<double> before;  // positions of the step before
 
   explicit Rows(int state_size, int dimension = 2) : dim(dimension), x(6 * each), f(6 * each) {
     std::mt19937_64 random(5);
@@ -52,6 +53,7 @@ struct Rows {
     for (int i = 0; i < 2 * each; ++i) radius.push_back(any(random));
     k.create(2);
     k[1][1] = stiffness;
+    delay.create(2);
     energies.record_what = LSMEnergySource::ENERGY | LSMEnergySource::SLIP_RATE;
     contacts.begin(state_size, dim);
     for (int i = 0; i < each; ++i)
@@ -68,6 +70,7 @@ struct Rows {
   }
   void move_to(int step) {
     n = step;
+    before = x;
     for (int i = 0; i < each; ++i) {
       x[3 * i] = 1.9 * i;
       x[3 * (each + i)] = 1.9 * i + 3.0 * std::sin(turns * step / 4000.0) + 0.02 * std::sin(i);
@@ -82,6 +85,11 @@ struct Rows {
       for (int c = 0; c < 3; ++c)
         in_space[i - i % 3 + static_cast<std::size_t>(c)] += x[i] * axes[i % 3][c];
     contacts.find(in_space.data());
+    using Motion = LSMLinkKernel::Motion<2>;
+    std::vector<double> motion(Motion::SIZE * x.size() / 3, 0.0);
+    for (std::size_t i = 0; i < x.size() / 3; ++i)
+      for (std::size_t c = 0; c < 2; ++c)
+        motion[Motion::SIZE * i + c] = (x[3 * i + c] - before[3 * i + c]) / dt;
     const Scene scene = {contacts,
                          host,
                          energies,
@@ -93,7 +101,9 @@ struct Rows {
                          LSM::friction_contact::NEAR_REACH,
                          k,
                          coefficients,
-                         false};
+                         delay,
+                         delay[1][1] > 0.0 ? motion.data() : nullptr,
+                         &power};
     if (dim == 2) return Loop<Law, Recorder, 2>(scene).run();
     Loop<Law, Recorder, 3>(scene).run();
     for (std::size_t i = 0; i < f.size(); i += 3) {
@@ -195,8 +205,9 @@ TEST(FrictionLoop, IsThatOfASlowSecondImplementation) {
 /// Contacts are computed side by side, or one by one where LAMMPS' own sums are tallied: to the
 /// last bit, forces, states and sums are the same.
 template <class Law>
-void side_by_side(const std::vector<double> &values) {
+void side_by_side(const std::vector<double> &values, double delay = 0.0) {
   Rows together = rows_of<Law>(values), one_by_one = rows_of<Law>(values);
+  together.delay[1][1] = one_by_one.delay[1][1] = delay;
   for (int n = 0; n < 1500; ++n) {
     for (Rows *rows : {&together, &one_by_one}) {
       rows->move_to(n);
@@ -204,7 +215,9 @@ void side_by_side(const std::vector<double> &values) {
     }
     ASSERT_EQ(together.f, one_by_one.f) << "step " << n;
     ASSERT_EQ(together.energies.work_friction, one_by_one.energies.work_friction) << "step " << n;
+    ASSERT_EQ(together.power, one_by_one.power) << "step " << n;
   }
+  EXPECT_EQ(together.power > 1e-3, delay > 0.0);
   EXPECT_GT(together.energies.work_friction, 0.1);
   for (int p = 0; p < together.contacts.count(); ++p)
     ASSERT_EQ(together.contacts.is_touching(p), one_by_one.contacts.is_touching(p));
@@ -214,6 +227,26 @@ TEST(FrictionLoop, GivesTheSameDigitsSideBySideAndOneByOne) {
   side_by_side<LSM::Coulomb>({kt, mu, mu});
   side_by_side<LSM::CoulombStatic>({kt, mu, 0.5});
   side_by_side<LSM::VelocityWeakening>({kt, mu, 0.5});
+  side_by_side<LSM::Coulomb>({kt, mu, mu}, 0.1);
+}
+
+// The dashpot of one contact between two discs that approach along x.
+TEST(FrictionLoop, DashpotsOfContactsResistAndLose) {
+  for (const double sign : {1.0, -1.0}) {
+    Rows rows = rows_of<LSM::Coulomb>({kt, mu, mu});
+    rows.delay[1][1] = 0.1;
+    std::fill(rows.x.begin(), rows.x.end(), 0.0);
+    for (int i = 0; i < 2 * Rows::each; ++i) rows.x[3 * i] = 10.0 * i;  // apart
+    const int j = Rows::each;
+    rows.x[3 * j] = rows.radius[0] + rows.radius[j] - 0.1;
+    rows.before = rows.x;
+    rows.before[3 * j] += sign * 0.02;
+    rows.evaluate<LSM::Coulomb>();
+    const double rate = -sign * 0.02 / dt;
+    EXPECT_NEAR(rows.f[3 * j], stiffness * (0.1 - 0.1 * rate), 1e-12);
+    EXPECT_NEAR(rows.f[0], -rows.f[3 * j], 1e-15);
+    EXPECT_NEAR(rows.power, 0.1 * stiffness * rate * rate, 1e-12);
+  }
 }
 
 // The setup of a run evaluates a step that was done.

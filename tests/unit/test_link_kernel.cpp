@@ -57,8 +57,8 @@ Network links_to_ghosts(Network net) {
   return net;
 }
 
-Rows rows_of(const Network &net, bool mixed = false, bool share = false) {
-  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed, share);
+Rows rows_of(const Network &net, bool mixed = false, bool share = false, int stride = 3) {
+  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed, share, stride);
 }
 
 struct Evaluation {
@@ -70,10 +70,11 @@ struct Evaluation {
 
 template <int DIM, class Law>
 Evaluation evaluate(const Network &net, const Rows &rows, const Law &law, bool first_only = false,
-                    bool avx2 = LSMLinkKernel::has_avx2()) {
+                    bool avx2 = LSMLinkKernel::has_avx2(),
+                    const std::vector<double> *motion = nullptr) {
   Evaluation e{0.0, std::vector<double>(net.x.size(), 0.0), {}, 0.0};
-  e.energy =
-      LSMLinkKernel::forces<DIM>(rows, law, first_only, net.x.data(), e.f.data(), e.broken, avx2);
+  const double *const x = (motion ? *motion : net.x).data();
+  e.energy = LSMLinkKernel::forces<DIM>(rows, law, first_only, x, e.f.data(), e.broken, avx2);
   return e;
 }
 
@@ -272,14 +273,33 @@ std::vector<double> velocities_of(const Network &net) {
   return v;
 }
 
+template <int DIM>
+std::vector<double> motion_of(const Network &net, const std::vector<double> &v) {
+  using Motion = LSMLinkKernel::Motion<DIM>;
+  std::vector<double> all(net.x.size() / 3 * Motion::SIZE, 0.0);
+  for (std::size_t i = 0; i < net.x.size() / 3; ++i) {
+    std::copy_n(&v[3 * i], DIM, &all[Motion::SIZE * i]);
+    std::copy_n(&net.x[3 * i], DIM, &all[Motion::SIZE * i + Motion::POSITION]);
+  }
+  return all;
+}
+
+template <int DIM, class Spring>
+Evaluation with_dashpots(const Network &net, const Spring &spring, double viscosity,
+                         const std::vector<double> &v, bool first_only, double &lost,
+                         bool avx2 = LSMLinkKernel::has_avx2()) {
+  const std::vector<double> motion = motion_of<DIM>(net, v);
+  const Rows rows = rows_of(net, first_only, false, LSMLinkKernel::Motion<DIM>::SIZE);
+  return evaluate<DIM>(net, rows, KelvinVoigt<Spring>{spring, viscosity, &lost}, first_only, avx2,
+                       &motion);
+}
+
 template <int DIM, class Spring>
 void dashpots_agree(const Network &net, const Spring &spring, double ratio, bool first_only) {
   const double viscosity = 0.3;
   const std::vector<double> v = velocities_of(net);
   double lost = 1.0;
-  const Evaluation got =
-      evaluate<DIM>(net, rows_of(net, first_only),
-                    KelvinVoigt<Spring>{spring, viscosity, v.data(), &lost}, first_only);
+  const Evaluation got = with_dashpots<DIM>(net, spring, viscosity, v, first_only, lost);
   Evaluation expected = plain(net, 0.7, ratio, first_only);
   double power = 0.0;
   for (const Link &link : net.links) {
@@ -307,9 +327,7 @@ void dashpots_agree(const Network &net, const Spring &spring, double ratio, bool
   // Without velocities the dashpots change nothing, to the last bit.
   const std::vector<double> rest(net.x.size(), 0.0);
   double none = 0.0;
-  const Evaluation still =
-      evaluate<DIM>(net, rows_of(net, first_only),
-                    KelvinVoigt<Spring>{spring, viscosity, rest.data(), &none}, first_only);
+  const Evaluation still = with_dashpots<DIM>(net, spring, viscosity, rest, first_only, none);
   const Evaluation elastic = evaluate<DIM>(net, rows_of(net, first_only), spring, first_only);
   EXPECT_EQ(still.energy, elastic.energy);
   EXPECT_EQ(still.f, elastic.f);
@@ -334,13 +352,9 @@ TEST(LinkKernel, InstructionSetsGiveTheSameDigitsWithDashpots) {
   const Network net = make_network(60, 2, 37);
   const std::vector<double> v = velocities_of(net);
   double lost[2] = {0.0, 0.0};
-  const Rows rows = rows_of(net);
   std::vector<double> f[2];
   for (const bool avx2 : {false, true})
-    f[avx2] =
-        evaluate<2>(net, rows, KelvinVoigt<Breakable>{{{0.7}, 1.2}, 0.3, v.data(), &lost[avx2]},
-                    false, avx2)
-            .f;
+    f[avx2] = with_dashpots<2>(net, Breakable{{0.7}, 1.2}, 0.3, v, false, lost[avx2], avx2).f;
   EXPECT_EQ(lost[0], lost[1]);
   EXPECT_EQ(f[0], f[1]);
 }

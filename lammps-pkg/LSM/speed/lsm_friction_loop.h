@@ -33,7 +33,7 @@ namespace LSMFriction {
     const LSMTypePairs<double> &k;    ///< normal stiffness
     const LSMTypePairs<double> *coefficients;    ///< by parameter of the law
     const LSMTypePairs<double> &delay;           ///< retardation time of dashpots
-    const double *velocity;                      ///< for these; null if there are none
+    const double *motion;                        ///< for these, Motion; null if there are none
     double *power;                               ///< what they dissipate is added
   };
 
@@ -68,7 +68,7 @@ namespace LSMFriction {
               const bool both = is_both(site);
               const Push push = block.push(lane);
               if constexpr (Recorder::records) record(site, false, push, both);
-              if (scene.velocity) power += (both ? 1.0 : 0.5) * block.power[lane];
+              if (scene.motion) power += (both ? 1.0 : 0.5) * block.power[lane];
               friction::keep<Law, DIM>(push.step, contacts.vector(place), h);
               add_forces(site, push, both);
               continue;
@@ -87,7 +87,7 @@ namespace LSMFriction {
         }
       }
       recorder.finish();
-      if (scene.velocity) *scene.power += power;
+      if (scene.motion) *scene.power += power;
     }
 
    private:
@@ -224,14 +224,14 @@ namespace LSMFriction {
         block.k[lane] = scene.k.at(site.types);
         for (std::size_t p = 0; p < std::size(Law::parameters); p++)
           block.coefficients[p][lane] = scene.coefficients[p].at(site.types);
-        if (scene.velocity) {
+        if (scene.motion) {
           block.viscosity[lane] = viscosity_of(site);
           double u[DIM];
           velocity_between(site, u);
           for (int c = 0; c < DIM; c++) block.u[c][lane] = u[c];
         }
       }
-      scene.velocity ? solve<true>() : solve<false>();
+      scene.motion ? solve<true>() : solve<false>();
     }
     template <bool VISCOUS> void solve()
     {
@@ -249,16 +249,16 @@ namespace LSMFriction {
     }
     void velocity_between(const Site &site, double (&u)[DIM]) const
     {
-      const double *const vi = scene.velocity + 3 * static_cast<size_t>(site.i);
-      const double *const vj = scene.velocity + 3 * static_cast<size_t>(site.j);
-      for (int c = 0; c < DIM; c++) u[c] = vi[c] - vj[c];
+      constexpr std::size_t size = LSMLinkKernel::Motion<DIM>::SIZE;
+      for (int c = 0; c < DIM; c++)
+        u[c] = scene.motion[size * site.i + c] - scene.motion[size * site.j + c];
     }
 
     [[gnu::always_inline]] double normal_force(const Site &site, const double *d, const Geometry &g,
                                                bool apart, bool both)
     {
       const double fn = LSM::contact_normal_force(scene.k.at(site.types), g.r, site.r0);
-      if (!scene.velocity || apart) return fn;
+      if (!scene.motion || apart) return fn;
       double u[DIM], lost;
       velocity_between(site, u);
       const double more = drag(g, d, u, viscosity_of(site), fn, lost);

@@ -10,7 +10,9 @@
 
 #include "numerics/sum.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 // The arithmetic becomes vector instructions only where sqrt() need not set errno
@@ -69,16 +71,52 @@ namespace LSMLinkKernel {
     }
   }
 
+  // The same of rows of Motion: d and u are the differences of positions and velocities from those
+  // of the four particles `from`.
+  template <int DIM>
+  LSM_INLINE static void gather(const double *x, const int *place, const double *const *from,
+                                Lanes (&d)[DIM], Lanes (&u)[DIM])
+  {
+    const auto turn = [&](int at) LSM_LAMBDA {
+      Lanes of[LANES];
+#pragma GCC unroll 4
+      for (int c = 0; c < LANES; c++)
+        of[c] = load<Lanes>(from[c] + at) - load<Lanes>(x + place[c] + at);
+      const Lanes a = pick<0, 4, 2, 6>(of[0], of[1]), b = pick<1, 5, 3, 7>(of[0], of[1]);
+      const Lanes e = pick<0, 4, 2, 6>(of[2], of[3]), g = pick<1, 5, 3, 7>(of[2], of[3]);
+      return std::array<Lanes, LANES>{pick<0, 1, 4, 5>(a, e), pick<0, 1, 4, 5>(b, g),
+                                      pick<2, 3, 6, 7>(a, e), pick<2, 3, 6, 7>(b, g)};
+    };
+    const auto first = turn(0);
+    if constexpr (DIM == 2) {
+      for (int c = 0; c < DIM; c++) u[c] = first[c];
+      for (int c = 0; c < DIM; c++) d[c] = first[DIM + c];
+    } else {
+      const auto second = turn(Motion<DIM>::POSITION);
+      for (int c = 0; c < DIM; c++) u[c] = first[c];
+      for (int c = 0; c < DIM; c++) d[c] = second[c];
+    }
+  }
+
+  // Where the force of a particle is, by its place.
+  template <int STRIDE> LSM_INLINE static double *force_at(double *f, int place)
+  {
+    constexpr int bytes = 3 * sizeof(double) / STRIDE;
+    static_assert(bytes * STRIDE == 3 * sizeof(double), "places are multiples of this");
+    return reinterpret_cast<double *>(reinterpret_cast<char *>(f) +
+                                      static_cast<std::ptrdiff_t>(place) * bytes);
+  }
+
   // Adds SIGN times the forces g to those of four particles, one after the other: two of them may
   // be the same.
-  template <int SIGN, int DIM>
+  template <int SIGN, int STRIDE, int DIM>
   LSM_INLINE static void scatter(double *f, const int *place, const Lanes (&g)[DIM])
   {
     const Lanes a = pick<0, 4, 2, 6>(g[0], g[1]), b = pick<1, 5, 3, 7>(g[0], g[1]);
     const Pair to[LANES] = {{a[0], a[1]}, {b[0], b[1]}, {a[2], a[3]}, {b[2], b[3]}};
 #pragma GCC unroll 4
     for (int c = 0; c < LANES; c++) {
-      double *const at = f + place[c];
+      double *const at = force_at<STRIDE>(f, place[c]);
       store<Pair>(at, SIGN > 0 ? load<Pair>(at) + to[c] : load<Pair>(at) - to[c]);
       if constexpr (DIM == 3) at[2] += SIGN * g[2][c];
     }
@@ -114,7 +152,7 @@ namespace LSMLinkKernel {
   LSM_INLINE static double work_on(const Stack &stack, const Rows &rows, const Law &law,
                                    const double *x, double *f, std::vector<Place> &broken)
   {
-    constexpr int STAGES = 4;
+    constexpr int STAGES = 4, STRIDE = Law::viscous ? Motion<DIM>::SIZE : 3;
     using Known = Stage<DIM, LENGTH, Law::viscous>;
     Known ring[STAGES];
     const int *row_in = &rows.particle[stack.row], *row_out = row_in;
@@ -126,24 +164,27 @@ namespace LSMLinkKernel {
 
     const auto vectors = [&](int slice) LSM_LAMBDA {
       Known &s = ring[slice % STAGES];
-      Lanes at[DIM];
-      gather<DIM>(x, row_in, at);
-      [[maybe_unused]] Lanes moves[DIM];
-      if constexpr (Law::viscous) gather<DIM>(law.velocity, row_in, moves);
+      [[maybe_unused]] Lanes at[DIM];
+      [[maybe_unused]] const double *from[LANES];
+      if constexpr (Law::viscous)
+        for (int c = 0; c < LANES; c++) from[c] = x + row_in[c];
+      else
+        gather<DIM>(x, row_in, at);
       row_in += LANES;
 #pragma GCC unroll 4
       for (int n = 0; n < LENGTH; n++, other_in += LANES) {
-        Lanes to[DIM];
-        gather<DIM>(x, other_in, to);
-        for (int c = 0; c < DIM; c++) s.d[n][c] = at[c] - to[c];
+        if constexpr (Law::viscous) {
+          Lanes u[DIM];
+          gather<DIM>(x, other_in, from, s.d[n], u);
+          s.rate[n] = s.d[n][0] * u[0] + s.d[n][1] * u[1];
+          if constexpr (DIM == 3) s.rate[n] += s.d[n][2] * u[2];
+        } else {
+          Lanes to[DIM];
+          gather<DIM>(x, other_in, to);
+          for (int c = 0; c < DIM; c++) s.d[n][c] = at[c] - to[c];
+        }
         s.r[n] = s.d[n][0] * s.d[n][0] + s.d[n][1] * s.d[n][1];
         if constexpr (DIM == 3) s.r[n] += s.d[n][2] * s.d[n][2];
-        if constexpr (Law::viscous) {
-          Lanes other[DIM];
-          gather<DIM>(law.velocity, other_in, other);
-          s.rate[n] = s.d[n][0] * (moves[0] - other[0]) + s.d[n][1] * (moves[1] - other[1]);
-          if constexpr (DIM == 3) s.rate[n] += s.d[n][2] * (moves[2] - other[2]);
-        }
       }
     };
 
@@ -198,9 +239,9 @@ namespace LSMLinkKernel {
           force[c] = s.r[n] * s.d[n][c];
           sum[c] = n ? sum[c] + force[c] : force[c];
         }
-        if constexpr (BOTH) scatter<1, DIM>(f, other_out, force);
+        if constexpr (BOTH) scatter<1, STRIDE, DIM>(f, other_out, force);
       }
-      scatter<-1, DIM>(f, row_out, sum);
+      scatter<-1, STRIDE, DIM>(f, row_out, sum);
       row_out += LANES;
     };
 
@@ -208,8 +249,7 @@ namespace LSMLinkKernel {
     const auto fetch_some = [&](int count) LSM_LAMBDA {
       for (; count > 0 && fetch < stack.fetch_end; count--, fetch++) {
         __builtin_prefetch(x + rows.to_fetch[fetch]);
-        __builtin_prefetch(f + rows.to_fetch[fetch], 1);
-        if constexpr (Law::viscous) __builtin_prefetch(law.velocity + rows.to_fetch[fetch]);
+        __builtin_prefetch(force_at<STRIDE>(f, rows.to_fetch[fetch]), 1);
       }
     };
 

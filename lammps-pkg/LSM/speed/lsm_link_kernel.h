@@ -20,6 +20,12 @@
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
+  /// Velocity and position of a particle side by side, as dashpots need both: one access to memory
+  /// instead of two.
+  template <int DIM> struct Motion {
+    static constexpr int SIZE = DIM == 2 ? 4 : 8, POSITION = SIZE / 2;    ///< velocities come first
+  };
+
   // The laws of links, for the single loop over links, which handles several side by side. A Number
   // is a SIMD vector, see linear_spring.h.
 
@@ -49,8 +55,7 @@ namespace LSMLinkKernel {
   template <class Spring> struct KelvinVoigt : Spring {
     static constexpr bool viscous = true;
     double viscosity;
-    const double *velocity;    // of the time of the positions, and in their order
-    double *lost;              // the power dissipated by the dashpots is added
+    double *lost;    // the power dissipated by the dashpots is added
     /// Attraction by the dashpot.
     template <class Number> [[gnu::always_inline]] Number drag(const Number &rate) const
     {
@@ -67,6 +72,8 @@ namespace LSMLinkKernel {
   /// and are added to `broken`.
   /// \param first_only  no force on the partner: its owner adds it. Half of the energy is returned.
   /// Rows have to be mixed
+  /// \param x           positions; with dashpots the Motion of each particle. Rows have to have
+  /// its stride
   /// \param avx2        use these instructions, which the processor has to have; the same digits
   /// either way
   template <int DIM, class Law>

@@ -60,13 +60,13 @@ namespace LSMLinkRows {
                         static_cast<int>(o.rest.size()), once ? 0 : LANES, 0, 0});
     if (once) o.rest.insert(o.rest.end(), LANES, first);
     for (std::size_t slice = 0; slice < rows.size(); slice += LANES) {
-      for (int c = 0; c < LANES; c++) o.particle.push_back(3 * rows[slice + c].i);
+      for (int c = 0; c < LANES; c++) o.particle.push_back(o.stride * rows[slice + c].i);
       for (int n = 0; n < length; n++)
         for (int c = 0; c < LANES; c++) {
           const Row &row = rows[slice + c];
           const bool is_link = n < row.length;
           const int link = row.first + (is_link ? n : 0);
-          o.other.push_back(3 * of.other[link]);
+          o.other.push_back(o.stride * of.other[link]);
           if (!once) o.rest.push_back(is_link ? of.rest[link] : NO_LINK);
         }
     }
@@ -129,13 +129,14 @@ namespace LSMLinkRows {
   }
 
   Rows make_rows(const std::vector<int> &owned, std::vector<Link> links, int nlocal, int nall,
-                 bool mixed, bool share)
+                 bool mixed, bool share, int stride)
   {
     const Owners of(links, nlocal);
     Rows o;
+    o.stride = stride;
     o.other.reserve(links.size() + links.size() / 16);
     std::vector<Link>().swap(links);
-    std::vector<int> used(3 * nall / LINE + 1, -2);
+    std::vector<int> used(static_cast<std::size_t>(stride) * nall / LINE + 1, -2);
     std::size_t before = 0;    // where the stacks of the window before begin
     const int n = static_cast<int>(owned.size());
     for (int from = 0, window = 0; from < n; from += WINDOW, window++) {

@@ -32,8 +32,9 @@ namespace LSMLinkRows {
     int fetch, fetch_end;    ///< what to fetch meanwhile, in Rows::to_fetch
   };
 
-  /// Links of one kind. Places are 3 times the local index of a particle.
+  /// Links of one kind. Places are `stride` times the local index of a particle.
   struct Rows {
+    int stride;
     std::vector<Stack> stacks;
     std::vector<int> particle;    ///< place of the particle of each row, LANES for each slice
     std::vector<int> other;       ///< place of its partner, LANES for each link of a slice
@@ -51,8 +52,9 @@ namespace LSMLinkRows {
   /// \param nall   local indices are below this
   /// \param mixed  put rows of all lengths side by side, filled up to the longest: for few links
   /// \param share  keep the rest length of a stack once where all of its links have the same
+  /// \param stride of places: numbers of a particle in the array that the kernel reads
   Rows make_rows(const std::vector<int> &owned, std::vector<Link> links, int nlocal, int nall,
-                 bool mixed, bool share);
+                 bool mixed, bool share, int stride);
 
 }    // namespace LSMLinkRows
 }    // namespace LAMMPS_NS
