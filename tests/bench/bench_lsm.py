@@ -26,7 +26,7 @@ from convert import convert  # noqa: E402
 from programs import INPUTS, Program, run  # noqa: E402
 from run import MPI  # noqa: E402
 
-WHAT = ("peers", "parts", "features", "lengths", "scale", "setup", "analysis", "causes", "campaign")
+WHAT = ("peers", "parts", "features", "lengths", "scale", "setup", "analysis", "causes", "dashpots", "campaign")
 LENGTHS = (120, 240, 480, 945, 1440, 1890, 3780)
 HOURS = 24 * 3600  # no run takes as long
 COLUMNS = ("table", "label", "length", "ranks", "round", "atoms", "steps", "seconds", "cpu_percent", *PARTS, "resident")
@@ -64,6 +64,9 @@ FEATURES = {
     "velocities of ghosts sent": dict(vel="yes"),
     "all lists rebuilt every 100 steps": dict(rebuild=100),
 }  # yapf: disable
+
+
+DASHPOTS = {"dashpots in links and contacts": {}, "no dashpots": dict(retardation=0)}
 
 
 def say(*words):
@@ -160,7 +163,7 @@ class Bench:
         given = dict(name=f"fault_{length}{name}", steps=self.steps(length, 60 * ranks)) | given
         self.note(table, label, length, ranks, number, self.lammps(ranks, lmp or self.lmp, HERE / "ours.in", given, "ours.log"))
 
-    def slice(self, table, label, folder, ranks, number):
+    def slice(self, table, label, folder, ranks, number, **given):
         """A part of the run of fault.in in a folder, from its newest restart file, with everything that it records."""
 
         def header(path):
@@ -176,7 +179,7 @@ class Bench:
         Path("slice/change.in").write_text(CHANGES.get(label, ""))
         length = int(header(info)["length"])
         environment = dict(SLICE_WARM="50", SLICE_STEPS=str(self.steps(length, 60 * ranks)), SLICE_CHANGE="change.in")
-        text = self.lammps(ranks, self.lmp, "fault.in", dict(restart=restart.name, extra="slice"), "slice.log", cwd="slice", env=environment)
+        text = self.lammps(ranks, self.lmp, "fault.in", dict(restart=restart.name, extra="slice") | given, "slice.log", cwd="slice", env=environment)
         self.note(table, label, length, ranks, number, text)
 
     # ---- what is measured
@@ -318,20 +321,35 @@ class Bench:
         time_of("intervals --replicas 0", "intervals with random series")
         Path("analysis.catalogue.csv").unlink()
 
+    def run_of_fault(self, name, steps, **given):
+        """Folder of a run of fault.in that is made once for each LMP."""
+        length = self.cause_length
+        folder = Path(f"{name}_{length}")
+        made = folder / "fault.restart.end.info"
+        if not (made.exists() and made.stat().st_mtime > self.lmp.stat().st_mtime):
+            say(f"making a fault of length {length}, {name}")
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            self.lammps(self.most, self.lmp, INPUTS / "fault.in",
+                        dict(length=length, steps=steps, prefix="fault") | given, "make.log", cwd=folder, measured=False)
+        return folder
+
+    def dashpots(self):
+        """What those of the leaky fault cost in shear."""
+        folder = self.run_of_fault("shear", steps=1000 if self.quick else 60000)
+        for number in self.in_rounds("dashpots", self.rounds):
+            for ranks in self.ranks:
+                for label, given in DASHPOTS.items():
+                    self.slice("dashpots", label, folder, ranks, number, **given)
+
     def causes(self):
         """Why a step of a run of RUNS takes longer than one of these scenes."""
         if not self.runs:
             return
-        length, before = self.cause_length, Path(f"before_{self.cause_length}")
+        length = self.cause_length
         self.scene(length)
         self.scene(length, "all")
-        made = before / "fault.restart.end.info"
-        if not (made.exists() and made.stat().st_mtime > self.lmp.stat().st_mtime):
-            say(f"making the default fault of length {length}, before the shear")
-            shutil.rmtree(before, ignore_errors=True)
-            before.mkdir()
-            self.lammps(self.most, self.lmp, INPUTS / "fault.in", dict(preset="absorbing", length=length, steps=0, prefix="fault"), "make.log",
-                        cwd=before, measured=False)
+        before = self.run_of_fault("before", steps=0, preset="absorbing")
         for number in self.in_rounds("causes"):
             self.ours("causes", "scene of the comparisons", length, 1, number)
             self.ours("causes", "with contacts of all discs", length, 1, number, name="_all", contacts="all")

@@ -17,6 +17,8 @@ namespace {
 class Lists : public Lmp {};
 
 const char *const free_pairs = "pair_style lsm/free\npair_coeff * * 1.0\n";
+// of single discs only
+const char *const few_pairs = "pair_style lsm/free\npair_coeff * * 1.0\npair_coeff 1 1 off\n";
 const char *const friction_pairs = "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n";
 
 // Discs at rest, and two linked ones that bounce through a lane between their rows, where they
@@ -66,7 +68,7 @@ int builds(const Result &result) {
 }
 
 TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
-  for (const char *pair : {free_pairs, friction_pairs}) {
+  for (const char *pair : {free_pairs, few_pairs, friction_pairs}) {
     const Result exact = run_text(lane(pair), {{"check", "no"}});
     ASSERT_TRUE(succeeded(exact));
     EXPECT_EQ(builds(exact), 3000);

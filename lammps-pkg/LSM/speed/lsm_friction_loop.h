@@ -181,8 +181,8 @@ namespace LSMFriction {
           }
           const LSM::FrictionContact contact{
               fn, h[Is::XI][n],
-              friction::displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]), time,
-              Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES};
+              friction::displacement(delx[n], dely[n], h[Is::VECTOR][n], h[Is::VECTOR + 1][n]),
+              time, Law::needs_sliding && h[Is::STATUS][n] == friction::SLIDES};
           const Push done =
               push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
           rsq[n] = g.rsq;
@@ -249,9 +249,9 @@ namespace LSMFriction {
     }
     void velocity_between(const Site &site, double (&u)[DIM]) const
     {
-      constexpr std::size_t size = LSMLinkKernel::Motion<DIM>::SIZE;
+      constexpr std::size_t stride = LSMLinkKernel::Motion<DIM>::SIZE;
       for (int c = 0; c < DIM; c++)
-        u[c] = scene.motion[size * site.i + c] - scene.motion[size * site.j + c];
+        u[c] = scene.motion[stride * site.i + c] - scene.motion[stride * site.j + c];
     }
 
     [[gnu::always_inline]] double normal_force(const Site &site, const double *d, const Geometry &g,

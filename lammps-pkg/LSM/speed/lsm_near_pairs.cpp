@@ -20,8 +20,7 @@ using namespace LSM::friction_contact;
 
 // A wider SKIN keeps more pairs (0.19 a particle with 0.05, 0.29 with 0.1), a narrower one has them
 // looked for more often (every 230 and 490 steps on the fault of length 120).
-static constexpr double FEW =
-    0.5;    // up to this number of listed pairs per particle, all of them are kept
+
 // Displacement of a particle that may be a stray, and how many of them there may be.
 static constexpr double STRAY = LSMNearPairs::SKIN / 3.0;
 static constexpr int MIN_STRAYS = 8, PARTICLES_PER_STRAY = 128;
@@ -54,10 +53,7 @@ void LSMNearPairs::update(NeighList &of, const double *radii, LSMContactStore *s
   if (what == Due::new_list) {
     screened ? patch.stop() : patch.start(of, *active);
   } else {
-    // Strays are not looked for if so few pairs are listed that all of them are kept.
-    const auto &added = what == Due::choice ? patch.look_at_all(0)
-        : x_chosen.empty()                  ? patch.look_at_all(lmp_->atom->nlocal)
-                                            : patch.look_at(strays);
+    const auto &added = what == Due::choice ? patch.look_at_all(0) : patch.look_at(strays);
     for (const LSMListPatch::Added &pair : added) {
       if (store) store->add_pair(pair.i, pair.jj);
       listed.push_back({pair.i, pair.jj, pair.j, -1});
@@ -119,11 +115,10 @@ LSMNearPairs::Due LSMNearPairs::due(const double *x)
         listed.push_back({i, jj, list->firstneigh[i][jj] & NEIGHMASK, -1});
     }
     moved.resize(moves.size());
-    x_chosen.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(all) : 0);
+    x_chosen.resize(3 * static_cast<size_t>(all));
     first_of.clear();
     return Due::new_list;
   }
-  if (x_chosen.empty()) return Due::nothing;
   hold_strays(x);
   double ghosts = displacement(x, nlocal, all);
   const auto too_far = [&ghosts](double move) {
@@ -207,7 +202,6 @@ void LSMNearPairs::choose(const double *x, bool new_list, LSMContactStore *store
   strays.clear();
   admitted = 0;
   chosen.resize(listed.size());
-  const bool all = x_chosen.empty();
   const double reach = std::max(state_reach, 1.0);
   int most = 0;
   for (int n = 0; n < static_cast<int>(listed.size()); n++) {
@@ -220,7 +214,7 @@ void LSMNearPairs::choose(const double *x, bool new_list, LSMContactStore *store
                                     : pair.place >= 0 && settle(pair.place);
     // overwritten by the next one unless the number advances
     chosen[most] = {n, std::exchange(pair.place, -1), has_state};
-    most += all | has_state | !(dx * dx + dy * dy + dz * dz > far * far);
+    most += has_state | !(dx * dx + dy * dy + dz * dz > far * far);
   }
 
   std::vector<double> before;

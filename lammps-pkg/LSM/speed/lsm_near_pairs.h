@@ -88,7 +88,7 @@ class LSMNearPairs : public LSMContacts {
   std::vector<Listed> listed;      // the whole neighbor list, and behind it what was added since
   bigint build_number = -1;        // number of the build of the list
   std::vector<double> x_chosen;    // positions when the pairs were chosen, those of strays later
-                                   // ones; empty where all pairs are kept
+                                   // ones
   std::vector<double> moved;       // bounds of displacements since then, without those of strays
   // The few particles, ghosts among them, that have moved so far since the pairs were chosen that
   // all of their pairs are kept; their motion does not matter then.
