@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files that the analysis and the block-slider replace, combine, and read: nothing is lost or mixed up."""
 import fcntl
+import gzip
 import json
 import os
 import shutil
-import subprocess
+import signal
+import struct
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
-
-from data_files import table
-from programs import refused, run, snapshot
+from data_files import table, write_catalogue
+from programs import Program, refused, run, snapshot, start
 
 CHAIN = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 200000"
 
@@ -45,13 +48,14 @@ WRITERS = [
     "export slider.csv -o {base}.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0",
 ]
 
+KEPT = [("slider.csv", "a catalogue"), ("slider.pe", "a PE series"), ("slider.ck", "a checkpoint"), ("restart", "a restart file"),
+        ("packed", "what gzip has compressed"), ("notes", "something else")]
 
-@pytest.mark.parametrize("line", WRITERS)
-@pytest.mark.parametrize("kept, content", [("slider.csv", "a catalogue"), ("slider.pe", "a PE series"), ("slider.ck", "a checkpoint"),
-                                           ("restart", "a restart file"), ("packed", "what gzip has compressed"), ("notes", "something else")])
+
+@pytest.mark.parametrize("line, kept, content", [(line, *KEPT[0]) for line in WRITERS] + [(WRITERS[1], *one) for one in KEPT[1:]])
 def test_nothing_else_is_replaced(postproc, files, line, kept, content):
     Path("restart").write_bytes(b"LammpS RestartT\0" + bytes(100))
-    Path("packed").write_bytes(subprocess.run(["gzip", "-c", "slider.csv"], capture_output=True, check=True).stdout)
+    Path("packed").write_bytes(gzip.compress(Path("slider.csv").read_bytes()))
     Path("notes").write_text("label,value\nof a measurement,1\n")
     shutil.copy(kept, "base.csv")
     words = line.format(base="base")
@@ -158,18 +162,8 @@ def test_a_full_disk_leaves_whole_files(postproc, files, small_disk, gnuplot, li
 # ---------------------------------------------------------------- files of different runs
 
 
-def write_catalogue(path, sizes, times=None, header="", model="lsm", length="# length = 120\n"):
-    rows = [
-        f"{k + 1},{(times[k] if times else k)!r},{(times[k] if times else k)!r},{k * 10},{k * 10 + 5},{size!r},1,0" for k, size in enumerate(sizes)
-    ]
-    Path(path).write_text(f"# lsm-catalogue 1\n# model = {model}\n{length}{header}"
-                          "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end\n" + "".join(row + "\n" for row in rows))
-
-
 def pareto(n, seed=1, least=1e-4):
-    import random
-    random.seed(seed)
-    return [least / (1 - random.random()) for _ in range(n)]
+    return least / (1 - np.random.default_rng(seed).random(n))
 
 
 def test_explore_with_conditions_on_drops_and_of_earthquakes(postproc, slider, files):
@@ -256,7 +250,6 @@ def test_headers_that_cannot_be_meant(postproc, files, old, new, expected):
     text = Path("slider.csv").read_text()
     Path("bad.csv").write_text(text.replace(f"# {old}", f"# {new}"))
     refused(postproc, "count bad.csv", f"bad.csv:[0-9]+: {expected}")
-    import struct
     data = Path("slider.pe").read_bytes()
     length = struct.unpack("<q", data[16:24])[0]
     header = data[24:24 + length].replace(f"# {old}".encode(), f"# {new}".encode())
@@ -295,32 +288,31 @@ HOSTILE = 20
 
 
 def test_equal_times_and_sizes_of_0(postproc, work):
-    write_catalogue("model.csv", pareto(300))
-    write_catalogue("at_once.csv", pareto(300), times=[5.0] * 300)
+    write_catalogue("model.csv", np.arange(300.0), pareto(300))
+    write_catalogue("at_once.csv", [5.0] * 300, pareto(300))
     refused(postproc, "intervals at_once.csv -o i --no-picture", "all times are 0", timeout=HOSTILE)
     refused(postproc, "magnitudes model.csv --no-picture --threshold 0", "--threshold 0 has no magnitude", timeout=HOSTILE)
 
 
 def test_numbers_beyond_all_reason(postproc, work):
-    write_catalogue("model.csv", pareto(300))
+    write_catalogue("model.csv", np.arange(300.0), pareto(300))
     refused(postproc, "magnitudes model.csv --no-picture --magnitude-bin 1e-9", "expected fewer than 1e5 bins", timeout=HOSTILE)
     names = []
     for k, length in enumerate((120, 240, 480, 945)):
         names.append(f"big{k}.csv")
-        write_catalogue(names[-1], [x * 1e308 for x in pareto(100, k, 0.01) if x < 1], length=f"# length = {length}\n")
+        sizes = 1e308 * pareto(100, k, 0.01).clip(max=1)
+        write_catalogue(names[-1], np.arange(100.0), sizes, dict(model="lsm", length=length))
     for command in "fit --replicas 0 --no-picture", "histograms --no-picture":
         refused(postproc, f"{command} {' '.join(names)}", "big0.csv: event 1 has a time or size of .*, expected at most 1e.100", timeout=HOSTILE)
 
 
 def test_lines_have_a_limit(postproc, work):
     """A small compressed file may unpack to an arbitrarily long line."""
-    import gzip
     with gzip.open("long.csv.gz", "wb", compresslevel=9) as file:
         file.write(b"time,latitude,longitude,mag\n")
         for _ in range(200):
             file.write(b"1" * (1 << 20))
     limit = ["bash", "-c", 'ulimit -v 1000000; exec "$@"', "bash"]
-    from programs import Program
     small = Program("postproc", *limit, *postproc.command)
     refused(small, "count long.csv.gz", "long.csv.gz: a line of more than 1048576 bytes", timeout=HOSTILE)
 
@@ -335,9 +327,6 @@ def test_quakeml_may_be_one_long_line(postproc, work):
 
 
 def test_pipe_without_reader_can_be_left(slider, work):
-    import signal
-    import time
-    from programs import start
     os.mkfifo("pipe")
     with start(slider, CHAIN, "--catalogue pipe") as child:
         time.sleep(1.0)
@@ -349,7 +338,6 @@ def test_pipe_without_reader_can_be_left(slider, work):
 
 def test_closed_standard_streams(slider, postproc, work):
     """Files that are opened do not become the standard streams to which messages are written."""
-    from programs import Program
     chain = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 3000000 --progress"
     run(slider, chain, "--catalogue open.csv --pe-series open.pe --pe-stride 10")
     for streams in "<&- >&- 2>&-", "2>&-":
@@ -401,20 +389,16 @@ FORMATS = {
 
 
 @pytest.mark.parametrize("name", FORMATS)
-@pytest.mark.parametrize("dressed", ["plain", "mark", "windows", "mac", "mark and windows"])
-def test_earthquakes_in_any_dress(postproc, work, name, dressed):
-    text = FORMATS[name]
-    if "windows" in dressed:
-        text = text.replace("\n", "\r\n")
-    if "mac" in dressed:
-        text = text.replace("\n", "\r")
-    Path("events").write_bytes((b"\xef\xbb\xbf" if "mark" in dressed else b"") + text.encode())
-    run(postproc, "count events --json n.json --size M2 --size M3.05")
+def test_earthquakes_in_any_dress(postproc, work, name):
+    """With line ends of Unix, Windows and old Macintoshes, with and without a byte order mark."""
+    dressed = [mark + FORMATS[name].replace("\n", end).encode() for mark in (b"", b"\xef\xbb\xbf") for end in ("\n", "\r\n", "\r")]
+    for k, text in enumerate(dressed):
+        Path(f"{k}.txt").write_bytes(text)
+    run(postproc, "count", *(f"{k}.txt" for k in range(len(dressed))), "--json n.json --size M2 --size M3.05")
     found = json.loads(Path("n.json").read_text())
-    assert found["catalogues"][0]["events"] == len(MAGNITUDES)
-    assert [row["events"] for row in found["sizes"]] == [12, 1]
-    first = found["catalogues"][0]["first_start"]
-    assert abs(first - 10957.0) < 1e-6  # 2000-01-01
+    assert [row["events"] for row in found["catalogues"]] == [len(MAGNITUDES)] * len(dressed)
+    assert [row["events"] for row in found["sizes"]] == [12, 1] * len(dressed)
+    assert all(abs(row["first_start"] - 10957.0) < 1e-6 for row in found["catalogues"])  # 2000-01-01
 
 
 def test_what_is_read_is_listed(postproc, work):
@@ -466,13 +450,11 @@ def test_labels_are_anything(postproc, work, files):
     assert "caf�" in Path("s.csv").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("label", ["=HYPERLINK(1)", "+1+1", "-2+3", "@SUM(A1)", '=1,"2"'])
-def test_labels_are_no_formulas(postproc, files, label):
-    run(postproc, ["histograms", "slider.csv", "--label", label, "--no-picture", "-o", "s"])
-    assert table("s.csv")[0]["label"] == "'" + label
-    # A number remains a number.
-    run(postproc, ["histograms", "slider.csv", "--label", "-5", "--no-picture", "-o", "s"])
-    assert Path("s.csv").read_text().splitlines()[-1].endswith(",-5")
+def test_labels_are_no_formulas(postproc, files):
+    """But a number remains a number."""
+    labels = ["=HYPERLINK(1)", "+1+1", "-2+3", "@SUM(A1)", '=1,"2"', "-5"]
+    run(postproc, ["histograms", *["slider.csv"] * len(labels), *(f"--label={label}" for label in labels), "--no-picture", "-o", "s"])
+    assert list(dict.fromkeys(row["label"] for row in table("s.csv"))) == [*("'" + label for label in labels[:-1]), "-5"]
 
 
 # ---------------------------------------------------------------- small traps
@@ -489,6 +471,6 @@ def test_two_catalogues_have_two_names(postproc, files):
 
 
 def test_lines_fit_a_terminal(postproc, work):
-    write_catalogue("a.csv", pareto(400), times=[float(k + k % 7 / 8) for k in range(400)])
+    write_catalogue("a.csv", np.arange(400) + np.arange(400) % 7 / 8, pareto(400), dict(model="lsm", length=120))
     done = run(postproc, "intervals a.csv --no-picture --replicas 20")
     assert max(map(len, done.out.splitlines())) <= 200, done
