@@ -61,7 +61,8 @@ add_custom_command(
 # from the archive.
 add_library(lammps_parts INTERFACE)
 target_sources(lammps_parts INTERFACE $<TARGET_OBJECTS:lsm_styles>)
-target_link_libraries(lammps_parts INTERFACE lammps_headers lsm_core ${lammps_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+target_link_libraries(lammps_parts INTERFACE lammps_headers lsm_core ${lammps_library} ${lammps_threads} PNG::PNG ZLIB::ZLIB m
+                                              ${CMAKE_DL_LIBS})
 include(${CMAKE_CURRENT_LIST_DIR}/FaultStyles.cmake)
 # Of two sources with the list of commands, the one that makes them: see left_out.h.
 set_source_files_properties(${lammps_source}/src/input.cpp PROPERTIES COMPILE_DEFINITIONS LSM_COMMAND_MAP)
@@ -105,7 +106,8 @@ target_sources(lammps_program INTERFACE $<TARGET_OBJECTS:lammps_with_lsm>)
 target_link_libraries(lammps_program INTERFACE lammps_parts)
 add_executable(lmp_fault EXCLUDE_FROM_ALL ${lammps_source}/src/main.cpp $<TARGET_OBJECTS:lsm_styles>
                                           $<TARGET_OBJECTS:lammps_with_lsm_fault>)
-target_link_libraries(lmp_fault PRIVATE lammps_headers lsm_core ${lammps_fault_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+target_link_libraries(lmp_fault PRIVATE lammps_headers lsm_core ${lammps_fault_library} ${lammps_threads} PNG::PNG ZLIB::ZLIB m
+                                        ${CMAKE_DL_LIBS})
 add_dependencies(lmp_fault lammps_stock_fault)
 if(LSM_BUILD_TESTS AND CMAKE_GENERATOR MATCHES "Ninja")
   set_target_properties(lmp_fault PROPERTIES EXCLUDE_FROM_ALL OFF)
