@@ -37,7 +37,7 @@ CELLS = (
     Cell("single.ledger", "accuracy_fault.csv", "error_ledger", {"variant": "standard", "method": "located", "dt": "0.03"}),
     Cell("absorbing_step.released", "accuracy_catalogues.csv", "released", {"dt": "0.12", "onset": "located"}, "released_error"),
 )
-COSTS = {"ledger": "energy ledger", "dashpots": "dashpots of links and contacts", "pressure": "pressure every step"}
+COSTS = {"ledger": "energy ledger", "pressure": "pressure every step"}
 SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
 NATURE = (("distance", "fault_1890", "fault 1890", "0.0001"), ("distance", "california_2.5", "Southern California", "5623.4132519034911"),
           ("distance", "two_faults", "2 faults 945 apart", "0.0001"), ("b", "fault_1890", "fault 1890", "0.0001"),
@@ -101,6 +101,8 @@ def speed_values():
     cost = {label: speed_tables.ratio_of(features[label], features["base of " + label]) for label in speed_tables.CHANGES}
     for key, label in COSTS.items():
         yield Value(f"speed.cost.{key}", cost[label], source=file)
+    for ranks in (1, 2):
+        yield Value(f"speed.dashpots.{ranks}", speed_tables.dashpots(ranks), source=file)
     yield Value("speed.cost.law", max(cost[label] for label in speed_tables.LAWS), n=len(speed_tables.LAWS), source=file)
     for name in "contacts", "records":
         yield Value(f"speed.saved.{name}", 1 - speed_tables.saved(SAVED[name]), source=file)
@@ -120,11 +122,9 @@ def speed_values():
     yield Value("single.raised.least", min(raised), n=len(raised), source="accuracy_fault.csv")
     rates = {(row["dt"], row["onset"]): float(row["time_per_core_hour"]) for row in read(FOLDER / "accuracy_catalogues.csv")}
     yield Value("absorbing_step.gain", rates["0.12", "located"] / rates["0.03", "located"], source="accuracy_catalogues.csv")
-    jobs = {(row["job"], row["part"]): float(row["seconds"]) for row in read(FOLDER / "speed/jobs.csv")}
-    first = {part: seconds for (job, part), seconds in jobs.items() if job == "first command"}
+    first = {row["part"]: float(row["seconds"]) for row in read(FOLDER / "speed/jobs.csv")}
     for part, seconds in ("programs", first["programs"]), ("fault", first["fault"]), ("total", sum(first.values())):
         yield Value(f"speed.first.{part}", seconds / 60, unit="minutes", source="speed/jobs.csv")
-    yield Value("speed.leaky", jobs["380000 steps", "leaky"] / jobs["380000 steps", "absorbing"], source="speed/jobs.csv")
     counts = [row for row in read(FOLDER / "speed/scale.csv") if row["ranks"] == "8"]
     yield Value("speed.share.8", max(float(row["largest_share"]) for row in counts) - 1, source="speed/scale.csv")
     for name, row in (("120", counts[0]), ("1890", counts[-1])):

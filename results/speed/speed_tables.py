@@ -73,7 +73,7 @@ def speed_lengths_table():
 
 CHANGES = ("contacts of all discs", "nothing recorded", "location of events", "energy ledger", "static friction above dynamic", "slip weakening",
            "velocity weakening", "rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)", "links that can break", "no viscosity",
-           "dashpots of links and contacts", "pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps")
+           "velocities of ghosts sent", "pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps")
 
 LAWS = ("static friction above dynamic", "slip weakening", "velocity weakening", "rate and state (ageing)", "rate and state (slip)")
 
@@ -106,15 +106,38 @@ def speed_machines_table():
 LEFT_OUT = {  # what a step takes without it, of a step with it: rows of "causes" (length 480, absorbing fault in shear), or inverse ratios of "features"
     "contacts of discs of the same block": ("causes", "contacts between the blocks only"),
     "rows of the catalogue with places and ruptures": ("causes", "neither location nor ruptures"), "all records": ("causes", "nothing recorded"),
-    "dashpots of links and contacts": ("features", "dashpots of links and contacts"), "energy balance": ("features", "energy ledger"),
+    "dashpots of links and contacts": ("dashpots", "no dashpots"), "energy balance": ("features", "energy ledger"),
     "links that can break": ("features", "links that can break"), "rate and state": ("features", "rate and state (ageing)"),
     "pressure at every step": ("features", "pressure every step"), "lists built anew every 100 steps": ("features",
                                                                                                         "all lists rebuilt every 100 steps")
 }
 
 
+def speed_dashpots_table():
+    found = timings("dashpots")
+    rows = [[
+        label, f"{ranks}", f"{middle(rounds):.1f}", *(f"{middle(rounds, key):.2f}" for key in ("bond", "pair", "modify", "comm")),
+        f"{dashpots(ranks):.2f}" if label == DAMPED else ""
+    ] for (label, _, ranks), rounds in sorted(found.items(), key=lambda one: one[0][2])]
+    head = [
+        "leaky fault, length 480, in shear", "ranks", "ns", "links", "contacts", "integration, plates, events", "communication", "with over without"
+    ]
+    return head, rows
+
+
+DAMPED, FREE = "dashpots in links and contacts", "no dashpots"
+
+
+def dashpots(ranks):
+    """Median ratio of a step with dashpots to one without."""
+    found = {key[0]: rounds for key, rounds in timings("dashpots").items() if key[2] == ranks}
+    return ratio_of(found[DAMPED], found[FREE])
+
+
 def saved(name):
     table, label = LEFT_OUT[name]
+    if table == "dashpots":
+        return 1 / dashpots(1)
     found = {key[0]: rounds for key, rounds in timings(table).items()}
     if table == "causes":
         return ratio_of(found[label], found["in shear as in the campaign"])
@@ -197,7 +220,7 @@ def speed_modes_table():
 TABLES = {
     "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-machines": speed_machines_table, "speed-lengths": speed_lengths_table,
     "speed-changes": speed_changes_table, "speed-saved": speed_saved_table, "speed-jobs": speed_jobs_table, "speed-lattice": speed_lattice_table,
-    "speed-analysis": speed_analysis_table
+    "speed-analysis": speed_analysis_table, "speed-dashpots": speed_dashpots_table
 }
 
 if __name__ == "__main__":

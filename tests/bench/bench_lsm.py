@@ -66,7 +66,7 @@ FEATURES = {
 }  # yapf: disable
 
 
-DASHPOTS = {"dashpots in links and contacts": {}, "no dashpots": dict(retardation=0)}
+DASHPOTS = {"dashpots in links and contacts": {}, "no dashpots": dict(retardation=0, prefix="undamped", overwrite="yes")}
 
 
 def say(*words):
