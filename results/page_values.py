@@ -103,6 +103,8 @@ def speed_values():
         yield Value(f"speed.cost.{key}", cost[label], source=file)
     for ranks in (1, 2):
         yield Value(f"speed.dashpots.{ranks}", speed_tables.dashpots(ranks), source=file)
+    for length in 120, 1890:
+        yield Value(f"speed.model.{length}", speed_tables.model_over_measured(length), source=file)
     yield Value("speed.cost.law", max(cost[label] for label in speed_tables.LAWS), n=len(speed_tables.LAWS), source=file)
     for name in "contacts", "records":
         yield Value(f"speed.saved.{name}", 1 - speed_tables.saved(SAVED[name]), source=file)

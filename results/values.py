@@ -28,6 +28,7 @@ CHOSEN = {
     "benchmarks: spacings, stations, times, frequency": "50 100 150 200 19 1",
     "our tolerances, and aims": "0.07 1.22 1.25 25 32",
     "rounds": "15",
+    "a network": "2 10",
     "packings": "4 5 6 11 12 13",
     "cut of short times in memories, stretches with bursts and their periods": "2.5 250 2",
     "times after main shocks": "300 3e4",

@@ -4,6 +4,7 @@
 speed_tables.py BASE: draws them as BASE.png and BASE.svg
 """
 import functools
+import math
 import statistics
 import sys
 from pathlib import Path
@@ -166,6 +167,34 @@ def speed_lattice_table():
     ]  # yapf: disable
 
 
+LATENCY, BANDWIDTH = 2000.0, 10.0  # of a network, not measured: ns for a message, bytes for a ns
+NARROWEST = 7.2  # width of the part of a rank: twice what ghosts reach
+ASKED = {"1e5": 1e5, "1e6": 1e6, "1e8": 1e8}
+
+
+def modelled(particles, ranks, ns):
+    """ns for a particle and step: work of a rank, its messages, and a sum over all ranks, by the counts of scale.csv."""
+    sent = next(row for row in read(FOLDER / "scale.csv") if (row["length"], row["ranks"]) == ("1890", "2"))
+    if ranks == 1:
+        return ns
+    step = float(sent["messages"]) * LATENCY + float(sent["bytes"]) / BANDWIDTH + 2 * LATENCY * math.log2(ranks) * float(sent["collectives"])
+    return ns / ranks + step / particles
+
+
+def model_over_measured(length):
+    """On two ranks, from the time of one."""
+    one, two = (timings("lengths")["ours", length, ranks] for ranks in (1, 2))
+    return modelled(middle(one, "atoms"), 2, middle(one)) / middle(two)
+
+
+def speed_scaling_table():
+    ns, wide = middle(timings("lengths")["ours", 1890, 1]), 1890 / middle(timings("lengths")["ours", 1890, 1], "atoms")
+    ranks = [4**n for n in range(1, 7)]
+    return ["particles", *(f"{n} ranks" for n in ranks)
+            ], [[name, *(f"{100 * ns / n / modelled(particles, n, ns):.0f} %" if particles * wide / n >= NARROWEST else "" for n in ranks)]
+                for name, particles in ASKED.items()]
+
+
 def speed_analysis_table():
     groups = {}
     for row in read(FOLDER / "analysis.csv"):
@@ -220,7 +249,7 @@ def speed_modes_table():
 TABLES = {
     "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-machines": speed_machines_table, "speed-lengths": speed_lengths_table,
     "speed-changes": speed_changes_table, "speed-saved": speed_saved_table, "speed-jobs": speed_jobs_table, "speed-lattice": speed_lattice_table,
-    "speed-analysis": speed_analysis_table, "speed-dashpots": speed_dashpots_table
+    "speed-analysis": speed_analysis_table, "speed-dashpots": speed_dashpots_table, "speed-scaling": speed_scaling_table
 }
 
 if __name__ == "__main__":
