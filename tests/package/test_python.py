@@ -35,7 +35,7 @@ try:
     fault(prefix="python", overwrite="yes")
 except Exception as error:
     assert "python.catalogue.csv: this run writes that file already" in str(error), error
-    assert "Last input line: run 700" in str(error), "not the whole message: " + str(error)
+    assert "give each output a name of its own" in str(error), "not the whole message: " + str(error)
 else:
     raise AssertionError("two objects write one catalogue")
 run.close()
