@@ -221,7 +221,7 @@ bool take_zone(std::string_view &text, TimeParts &parts, std::string &problem) {
   std::string_view rest = text;
   std::string word = in_small_letters(take_while(rest, is_letter));
   if (word == "am" || word == "pm") {
-    if (!(*parts[Part::hour] >= 1.0 && *parts[Part::hour] <= 12.0)) {
+    if (!(parts[Part::hour] >= 1.0 && parts[Part::hour] <= 12.0)) {  // no hour: less than any
       problem = "an hour from 1 to 12 with AM or PM";
       return false;
     }
