@@ -51,7 +51,8 @@ int PairLSMFriction::law_state() const
   return domain->dimension == 3 ? Kept<3>::LAW_STATE : Kept<2>::LAW_STATE;
 }
 
-PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) : PairLSMFree(_lmp), table(_lmp), running(table.law)
+PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
+    PairLSMFree(_lmp), table(_lmp), own(_lmp, table), running(table.law)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -109,9 +110,9 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
                                     newton_pair != 0,
                                     step,
                                     near_reach(),
-                                    k,
-                                    &table[0],
-                                    delay,
+                                    by_particle ? own.stiffness() : k,
+                                    by_particle ? own.coefficients() : &table[0],
+                                    by_particle ? own.retardation() : delay,
                                     has_dashpots() ? velocity->now(0) : nullptr,
                                     has_dashpots() ? &velocity->power : nullptr};
   if (domain->dimension == 3)
@@ -133,6 +134,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (screened) check_special();
   near.update(*list, contact_radii(), fix_history);
+  if (by_particle) own.follow(near, k, delay);
   constexpr int groups = 8 * sizeof(int);
   if (std::count(group->dynamic, group->dynamic + groups, 1)) near.find_sides();
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
@@ -140,6 +142,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
 
 void PairLSMFriction::load_contacts(const int *faces, const double *shear, const double *shear_z)
 {
+  if (by_particle) own.read();
   double **x = atom->x;
   const double *radius = contact_radii();
   const int dimension = domain->dimension;
@@ -157,7 +160,8 @@ void PairLSMFriction::load_contacts(const int *faces, const double *shear, const
       if (dimension == 2) del[2] = 0.0;
       const double rsq = MathExtra::lensq3(del);
       if (!active[itype][jtype] || rsq >= r0 * r0) continue;
-      const std::vector<double> values = table.values(itype, jtype);
+      const std::vector<double> values = by_particle ? own.values(i, j)
+                                                     : table.values(itype, jtype);
       double *const h = &fix_history->firstvalue[i][size_history() * jj];
       int &touch = fix_history->firstflag[i][jj];
       double &status = h[dimension == 3 ? Kept<3>::STATUS : Kept<2>::STATUS];
@@ -219,11 +223,12 @@ void PairLSMFriction::settings(int narg, char **arg)
   choose(wanted);
   common.assign(arg + MIN(words, 1), arg + words);
   if (common.empty()) return;
-  const bool number = utils::is_double(common[0]);
-  if (number == table.law->named)
+  const bool value = utils::is_double(common[0]) || utils::strmatch(common[0], "^d_");
+  if (value == table.law->named)
     error->all(FLERR, lsm_place(lmp, arg[1]),
                "Pair style lsm/friction {} expects {} or onset located|step, got '{}'",
-               table.law->name, table.law->named ? "pairs NAME VALUE" : "numbers", common[0]);
+               table.law->name, table.law->named ? "pairs NAME VALUE" : "numbers, d_PROPERTY",
+               common[0]);
   char kt[] = "1.0", *only_kt[] = {kt};
   parse_law(1, only_kt);    // reports errors in the coefficients of pair_style right away
 }
@@ -280,6 +285,8 @@ void PairLSMFriction::init_style()
                  "Could not find the contact history of pair lsm/friction");
   }
   near.keep_states(size_history(), near_reach());
+  by_particle = own.init(on);
+  near.own_coefficients(by_particle);
 }
 
 // the history of a pair is found by the IDs of its particles
@@ -304,16 +311,15 @@ double PairLSMFriction::init_one(int i, int j)
 
   table.mirror(i, j);
   if (!on[i][j]) return cut;
-  const std::string types = fmt::format(" of types {} {}", i, j);
-  const std::vector<double> values = table.values(i, j);
-  table.check(values, types);
+  table.check(i, j);
+  own.outdate();
 
   // takes the next law of this name that fits; within a run it does not go back
-  while (!running->fits(values.data())) {
+  while (!table.fits(*running, i, j)) {
     if (running == &LSMLawTable::all().back() || strcmp((++running)->name, table.law->name) != 0)
       error->all(FLERR, Error::NOLASTLINE,
-                 "Pair lsm/friction: the law {} cannot be run with the coefficients{}",
-                 table.law->name, types);
+                 "Pair lsm/friction: the law {} cannot be run with the coefficients of types {} {}",
+                 table.law->name, i, j);
   }
   return cut;
 }

@@ -11,6 +11,7 @@ PairStyle(lsm/friction,PairLSMFriction);
 #ifndef LMP_PAIR_LSM_FRICTION_H
 #define LMP_PAIR_LSM_FRICTION_H
 
+#include "lsm_contact_coefficients.h"
 #include "lsm_friction_host.h"
 #include "lsm_law_table.h"
 #include "pair_lsm_free.h"
@@ -47,6 +48,8 @@ class PairLSMFriction : public PairLSMFree, private LSMFriction::Host {
 
  private:
   LSMLawTable table;
+  LSMContactCoefficients own;    // used where particles have coefficients
+  bool by_particle = false;
   std::vector<std::string> common;    // coefficients after kt where pair_coeff has none
   const LSMLaw *running;              // first law of the name that fits all coefficients
   bool restored = false;              // law and coefficients come from a restart file

@@ -3,6 +3,7 @@
 // and a closed form.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -103,6 +104,40 @@ TEST_F(Benchmark, RanksAgree) {
     for (std::size_t b = 0; b < expected.slip.size(); ++b)
       EXPECT_NEAR(history.slip[b], expected.slip[b], 1e-6 * largest);  // the file holds floats
   }
+}
+
+// TPV205 with friction as properties of particles in place of types of the plane that is held
+TEST_F(Benchmark, PropertiesOfParticlesGiveTheBytesOfTypes) {
+  ASSERT_TRUE(succeeded(run_scene("rupture_tpv205.in", small("types"))));
+  std::string scene = read_file(LSM_INPUTS "/rupture_tpv205.in");
+  const auto from = scene.find("set             group strong_lower"), to = scene.find("# Shear");
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  scene.replace(from, to - from, R"(
+fix             friction all property/atom d_mu d_mus d_dc ghost yes
+set             group all d_mu 0.525
+set             group all d_mus 0.677
+set             group all d_dc $(0.4*v_scale:%.17g)
+set             group strong d_mu 1e4
+set             group strong d_mus 1e4
+set             group strong d_dc 1
+pair_style      lsm/friction slip-weakening mu d_mu mu_static d_mus dc d_dc
+pair_coeff      * * off
+pair_coeff      3 4 $(v_k:%.17g) $(v_kt*v_k:%.17g)
+)");
+  for (const char *part : {"rupture_tpv205.variables", "rupture_lattice.in", "rupture_run.in"})
+    std::filesystem::copy_file(std::string(LSM_INPUTS "/") + part, path(part),
+                               std::filesystem::copy_options::overwrite_existing);
+  ASSERT_TRUE(succeeded(run_text(scene, small("properties"))));
+  const auto records = [](const std::string &prefix) {
+    std::string bytes;
+    for (const auto &record : History(path(prefix + ".slip.bin")).records)
+      bytes.append(reinterpret_cast<const char *>(record.row.slip.data()),
+                   record.row.slip.size() * sizeof(record.row.slip[0]));
+    return bytes;
+  };
+  EXPECT_GT(records("types").size(), 1000u);
+  EXPECT_EQ(records("types"), records("properties"));
 }
 
 TEST_F(Benchmark, RupturesStillOpenAreWrittenIfAsked) {

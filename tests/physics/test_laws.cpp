@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -599,4 +601,140 @@ TEST_F(LawsOnFault, MistakesAreNamedInOneLine) {
   EXPECT_TRUE(failed_with(adapted("k"), {"k of types 3 4 is -", "> 0"}));
   EXPECT_TRUE(failed_with(adapted("on"), {"not compatible"}));
   EXPECT_TRUE(failed_with(adapted("kelvin-voigt"), {"not supported"}));
+}
+
+// ---- coefficients that particles have ----
+
+namespace {
+
+/// A law whose coefficients are properties of particles.
+struct OwnLaw {
+  std::string coefficients, fix, set;
+
+  /// \param factor of the numbers of the law, as the formula of an atom-style variable
+  OwnLaw(const FaultLaw &law, const std::string &factor) : fix("fix own all property/atom") {
+    const bool named = law.name != std::string("coulomb");
+    std::istringstream in(law.coefficients);
+    std::string name = "mu", value;
+    while (named ? in >> name >> value : in >> value) {
+      coefficients += (named ? name + " d_" : "d_") + name + " ";
+      fix += " d_" + name;
+      set += "variable own atom " + value + "*(" + factor + ")\nset group all d_" + name +
+             " v_own\nvariable own delete\n";
+      name = "mu_static";
+    }
+    fix += " ghost yes\n";
+  }
+  std::string with(std::string (*pairs)(const FaultLaw &), const FaultLaw &law) const {
+    return pairs({law.name, coefficients.c_str()}) + fix + set;
+  }
+};
+
+}  // namespace
+
+TEST_F(LawsOnFault, PropertiesOfParticlesActLikeTheNumbersOfTypes) {
+  for (const FaultLaw &law : fault_laws) {
+    SCOPED_TRACE(law.name);
+    const Result types = run_text(from_data(plain(law), "") + "run 1000\n");
+    const Result same = run_text(from_data(OwnLaw(law, "1").with(plain, law), "") + "run 1000\n");
+    ASSERT_TRUE(succeeded(types));
+    ASSERT_TRUE(succeeded(same));
+    EXPECT_EQ(thermo_difference(types, same, law_columns), 0.0);
+
+    // Now each particle has other numbers.
+    const OwnLaw own(law, "1+0.2*sin(7*id)");
+    const std::string half = "half." + std::string(law.name);
+    const std::string halves = "run 500\nwrite_restart " + half + "\nrun 500\n";
+    const std::string script = from_data(own.with(plain, law), "") + halves;
+    const Result one = run_text(script), two = run_text(script, {{"newton", "on"}}, 2);
+    ASSERT_TRUE(succeeded(one));
+    ASSERT_TRUE(succeeded(two));
+    EXPECT_NE(one.last("c_events[11]"), types.last("c_events[11]"));
+    EXPECT_LT(thermo_difference(one, two, law_columns), 1e-7);
+    if (law.name == std::string("coulomb")) {
+      const Result hybrid =
+          run_text(from_data(own.with(under_hybrid, law), "") + "run 500\nrun 500\n");
+      ASSERT_TRUE(succeeded(hybrid));
+      EXPECT_LT(thermo_difference(one, hybrid, law_columns), 1e-9);
+    }
+
+    // A restart file has the numbers of particles and the names of the properties.
+    const Result rest = run_text(from_restart(half, own.fix) + "run 500\n");
+    ASSERT_TRUE(succeeded(rest));
+    for (const char *column : {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]"})
+      EXPECT_EQ(rest.last(column), one.last(column)) << column;
+  }
+}
+
+TEST_F(LawsOnFault, PropertiesOfParticlesMayChangeBetweenRuns) {
+  const FaultLaw before = {"coulomb", "0.5 0.6"}, after = {"coulomb", "0.4 0.7"};
+  const auto types = [&](const std::string &change, const std::string &pairs) {
+    const Result r = run_text(from_data(pairs, "") + "run 400\n" + change + "run 400\n");
+    EXPECT_TRUE(succeeded(r));
+    return r;
+  };
+  const OwnLaw own(before, "1");
+  const std::string mine = own.with(plain, before), changed = OwnLaw(after, "1").set;
+  const Result wanted = types("pair_coeff 3 4 1.0 1.0 0.4 0.7\n", plain(before));
+  EXPECT_EQ(thermo_difference(wanted, types(changed, mine), law_columns), 0.0);
+  EXPECT_GT(thermo_difference(wanted, types("", mine), law_columns), 1e-3);
+
+  // Without a static coefficient, friction is the property alone; other coefficients may be
+  // adapted.
+  const auto run = [&](const std::string &pairs) {
+    const Result r = run_text(from_data(pairs, "") + "run 800\n");
+    EXPECT_TRUE(succeeded(r));
+    return r;
+  };
+  EXPECT_EQ(thermo_difference(run(plain({"coulomb", "0.5"})),
+                              run(plain({"coulomb", "d_mu"}) + own.fix + own.set), law_columns),
+            0.0);
+  const std::string ramp =
+      "variable a equal 0.5-1e-4*step\nfix a all adapt 10 pair lsm/friction mu 3 4 v_a\n";
+  EXPECT_EQ(thermo_difference(run(plain({"coulomb", "0.5 0.6"}) + ramp),
+                              run(plain({"coulomb", "0.5 d_mu_static"}) + own.fix + own.set + ramp),
+                              law_columns),
+            0.0);
+  EXPECT_TRUE(failed_with(
+      run_text(from_data(plain({"coulomb", "d_mu 0.6"}) + own.fix + own.set + ramp, "") +
+               "run 20\n"),
+      {"mu of types 3 4 is d_mu, a property of particles", "fix adapt"}));
+}
+
+TEST_F(LawsOnFault, MistakesInPropertiesAreNamedInOneLine) {
+  const FaultLaw law = {"slip-weakening", "mu d_mu mu_static 0.6 dc d_dc"};
+  const std::string set = "set group all d_mu 0.5\nset group all d_dc 0.1\n";
+  struct Case {
+    std::string more;
+    std::vector<std::string> parts;
+  };
+  const std::string ghosts = "fix own all property/atom d_mu d_dc ghost yes\n" + set;
+  for (
+      const Case &one : std::vector<Case>{
+          {"", {"mu of types 3 4 is d_mu", "no such property", "property/atom d_mu ghost yes"}},
+          {"fix own all property/atom d_mu i_dc ghost yes\nset group all d_mu 0.5\n",
+           {"dc of types 3 4 is d_dc", "no such property"}},
+          {"fix own all property/atom d_mu d_dc\n" + set, {"d_mu", "ghosts"}},
+          {ghosts + "set group upperface d_dc 0\n", {"dc of particle ", "types 3 4 is 0", "> 0"}},
+          {ghosts + "set group upperface d_mu 0.7\n",
+           {"mu_static of particle ", "types 3 4 is 0.6", "at least mu = 0.7"}},
+          {ghosts + "set group upperface d_mu -0.1\n", {"mu of particle ", "is -0.1", ">= 0"}},
+          // one particle that nothing touches, and one of other types
+          {ghosts +
+               "set group all d_mu 9\nset group lowerface d_mu 0.5\nset group upperface d_mu 0.5\n",
+           {}}})
+    for (int ranks : {1, 2}) {
+      const Result r =
+          run_text(from_data(plain(law) + one.more, "catalogue wrong.csv") + "run 1\n", {}, ranks);
+      if (one.parts.empty())
+        EXPECT_TRUE(succeeded(r));
+      else
+        EXPECT_TRUE(failed_with(r, one.parts)) << one.more;
+      EXPECT_EQ(std::filesystem::exists(path("wrong.csv")), one.parts.empty());
+      std::filesystem::remove(path("wrong.csv"));
+    }
+  EXPECT_TRUE(
+      failed_with(run_text(fault_start() + "read_data settled.data\n" +
+                           with_law("pair_style lsm/friction\npair_coeff * * 1.0 d_kt 0.6\n")),
+                  {"d_kt"}));
 }

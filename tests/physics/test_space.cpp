@@ -108,6 +108,44 @@ TEST_F(Space, InPiecesAndFromARestartFile) {
   }
 }
 
+// Coefficients that particles have, and the same from a restart file.
+TEST_F(Space, PropertiesOfParticles) {
+  const std::string fix = "fix own all property/atom d_mus d_dc ghost yes\n";
+  const auto script = [&fix](const std::string &factor) {
+    return slide("lsm/friction slip-weakening", "mu 0.2 mu_static d_mus dc d_dc") + fix +
+           "variable own atom " + factor + "\nvariable mus atom 0.4*v_own\n" +
+           "variable dc atom 0.3*v_own\nset group all d_mus v_mus\nset group all d_dc v_dc\n";
+  };
+  const std::string halves = "run 300\nwrite_restart half.restart\nrun 300\n";
+  const Result types = run_text(slide() + halves), same = run_text(script("1") + halves);
+  ASSERT_TRUE(succeeded(types));
+  ASSERT_TRUE(succeeded(same));
+  EXPECT_EQ(thermo_difference(types, same, energies), 0.0);
+
+  const std::string varied = script("1+0.2*sin(7*id)");
+  std::string after = varied;
+  const auto from = after.find("region "), to = after.find("group             above");
+  after.replace(from, to - from, "read_restart half.restart\n");
+  after.erase(after.find("velocity "), after.find("pair_style") - after.find("velocity "));
+  after.erase(after.find("variable own"));
+  const Result one = run_text(varied + halves);
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_GT(std::fabs(one.last("c_events[11]") - types.last("c_events[11]")), 1e-4);
+  for (int ranks : {1, 2}) {
+    const Result r = run_text(varied + halves, {{"newton", ranks == 2 ? "on" : "off"}}, ranks);
+    const Result rest =
+        run_text(after + "run 300\n", {{"newton", ranks == 2 ? "on" : "off"}}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    ASSERT_TRUE(succeeded(rest));
+    for (const auto &column : energies) EXPECT_NEAR(r.last(column), one.last(column), 1e-9);
+    for (const char *column : {"KinEng", "c_events[5]", "c_events[8]"})
+      EXPECT_EQ(rest.last(column), r.last(column)) << column << ", " << ranks << " ranks";
+    EXPECT_TRUE(failed_with(
+        run_text(varied + "set atom 41 d_dc 0\nset atom 60 d_dc -1\nrun 1\n", {}, ranks),
+        {"dc of particle 41 in contacts of types 1 2 is 0"}));
+  }
+}
+
 // Under hybrid contacts are taken one by one; what compute pair/local prints is the elongation, and
 // the force along it and along the axes.
 TEST_F(Space, HybridAndSingle) {

@@ -15,6 +15,7 @@ void LSMContacts::begin(int size, int dimension)
   limit.clear();
   states.clear();
   at_last_find = 0;
+  begun_++;
 }
 
 void LSMContacts::add(const Pair &pair, bool touching)

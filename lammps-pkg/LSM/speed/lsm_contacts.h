@@ -17,7 +17,7 @@ class LSMContacts {
  public:
   struct Pair {
     int i, j;       ///< particles
-    int types;      ///< place of the coefficients of their types
+    int types;      ///< place of the coefficients of their types, or of their own
     int across;     ///< see LSMEnergySource::across_fault()
     double r0;      ///< sum of the radii
     double size;    ///< effective size of the contact
@@ -32,6 +32,8 @@ class LSMContacts {
   void find(const double *x);
 
   int count() const { return static_cast<int>(pairs.size()); }
+  /// How often all pairs were replaced by others.
+  int begun() const { return begun_; }
   const Pair &pair(int place) const { return pairs[place]; }
   /// Number of pairs that touch, or nearly do because of rounding, and the place of the n-th of
   /// these, in the same order.
@@ -72,6 +74,8 @@ class LSMContacts {
   int number = 0;
 
  private:
+  int begun_ = 0;
+
   template <int DIM> void find_in(const double *x);
 };
 

@@ -165,7 +165,8 @@ void LSMNearPairs::keep(int n, const double *state_before)
   if (screened && is_left_out(pair)) return;
   const int i = pair.i, j = pair.j, *const type = lmp_->atom->type;
   pair.place = count();
-  LSMContacts::add({i, j, active->place(type[i], type[j]), side_of(i, j), radius[i] + radius[j],
+  const int coefficients = types_are_places ? count() : active->place(type[i], type[j]);
+  LSMContacts::add({i, j, coefficients, side_of(i, j), radius[i] + radius[j],
                     LSM::contact_size(radius[i], radius[j])},
                    state_before && state_before[status()] != NEAR);
   if (state_before) std::copy_n(state_before, state_size, state(pair.place));

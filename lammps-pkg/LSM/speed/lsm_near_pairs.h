@@ -48,6 +48,8 @@ class LSMNearPairs : public LSMContacts {
   /// The same for contacts that have a state, see friction_contact.h.
   /// \param reach      up to this distance, in sums of radii, pairs without contact have one, too
   void keep_states(int state_size, double reach);
+  /// From the next list on, the coefficients of each pair are those at its own place.
+  void own_coefficients(bool yes) { types_are_places = yes; }
   /// Brings everything to this step. To be called once in each, before forces are evaluated.
   /// \param store  what a new list begins with, null for contacts without a state
   void update(NeighList &, const double *radius, LSMContactStore *store);
@@ -77,7 +79,7 @@ class LSMNearPairs : public LSMContacts {
   LSMTravel travel;
   const LSMTypePairs<int> *active = nullptr;
   const LSMEnergySource *sides = nullptr;
-  bool screened = false;
+  bool screened = false, types_are_places = false;
   NeighList *list = nullptr;
   const double *radius = nullptr;
 

@@ -43,6 +43,13 @@ class LSMLawTable : protected Pointers {
   const LSMTypePairs<double> &operator[](int p) const { return coefficient[p]; }
   static constexpr int MAX_PARAMETERS = 8;
   std::vector<double> values(int i, int j) const;
+  /// Whether the law supports the coefficients of two types, whatever particles have.
+  bool fits(const LSMLaw &, int i, int j) const;
+  /// Properties of particles in place of numbers, such as "d_mu", in the order of their numbers.
+  const std::vector<std::string> &properties() const { return properties_; }
+  /// The number of the property that is a coefficient of two types, -1 if there is none.
+  int property(int p, int i, int j) const { return by_particle[p][i][j] - 1; }
+  bool has_property(int i, int j) const;
   /// The coefficient of a name, except one that follows another; null if there is none.
   double **find_coefficient(const char *name);
 
@@ -56,9 +63,13 @@ class LSMLawTable : protected Pointers {
   /// Copies the coefficients of types i and j to j and i, and updates those that follow others, as
   /// fix adapt may have changed coefficients.
   void mirror(int i, int j);
-  /// Stops LAMMPS if a value is out of range.
-  /// \param where follows the names of coefficients in messages
-  void check(const std::vector<double> &, const std::string &where) const;
+  /// What is wrong with values that are out of range, or "".
+  /// \param where follows the names of coefficients
+  /// \param skip  some of the values are not known, as particles have them
+  std::string complaint(const std::vector<double> &, const std::string &where,
+                        bool skip = false) const;
+  /// Stops LAMMPS if a value of two types is out of range.
+  void check(int i, int j) const;
 
   void keep(LSMRestartFile &, int i, int j);
   void print(FILE *, int i, int j) const;
@@ -67,9 +78,17 @@ class LSMLawTable : protected Pointers {
   LSMTypePairs<double> coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
   LSMTypePairs<int>
       given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
+  // number of the property that particles have in its place, from 1 on, or 0; such a coefficient is
+  // BY_PARTICLE, which none can be
+  LSMTypePairs<int> by_particle[MAX_PARAMETERS];
+  static constexpr double BY_PARTICLE = -1.0;
+  std::vector<std::string> properties_;
   std::vector<double> parsed;
+  std::vector<int> parsed_property;
   std::vector<bool> parsed_given;
 
+  int find_property(const std::string &name);
+  void check_range(const std::vector<double> &, const std::string &where) const;
   bool optional(int p) const { return law->parameters[p].otherwise != LSM::Parameter::required; }
 };
 

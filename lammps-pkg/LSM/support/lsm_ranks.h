@@ -18,6 +18,7 @@ template <class Value> MPI_Datatype lsm_mpi_type()
 {
   if constexpr (std::is_same_v<Value, double>) return MPI_DOUBLE;
   if constexpr (std::is_same_v<Value, int>) return MPI_INT;
+  if constexpr (std::is_same_v<Value, char>) return MPI_CHAR;
   if constexpr (std::is_same_v<Value, std::int64_t>) return MPI_INT64_T;
   if constexpr (std::is_same_v<Value, std::uint64_t>) return MPI_UINT64_T;
 }

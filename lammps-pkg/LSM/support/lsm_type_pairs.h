@@ -23,6 +23,13 @@ template <class Value> class LSMTypePairs {
   int place(int i, int j) const { return static_cast<int>(i * rows_.size()) + j; }
   const Value &at(int place) const { return values_[place]; }
   Value **data() { return rows_.data(); }
+  /// The same without types, as a list of values by their place.
+  void clear()
+  {
+    rows_.clear();
+    values_.clear();
+  }
+  void add(const Value &value) { values_.push_back(value); }
 
  private:
   std::vector<Value> values_;
