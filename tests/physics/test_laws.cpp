@@ -635,8 +635,8 @@ struct OwnLaw {
 TEST_F(LawsOnFault, PropertiesOfParticlesActLikeTheNumbersOfTypes) {
   for (const FaultLaw &law : fault_laws) {
     SCOPED_TRACE(law.name);
-    const Result types = run_text(from_data(plain(law), "") + "run 1000\n");
-    const Result same = run_text(from_data(OwnLaw(law, "1").with(plain, law), "") + "run 1000\n");
+    const Result types = run_text(from_data(plain(law), "") + "run 400\n");
+    const Result same = run_text(from_data(OwnLaw(law, "1").with(plain, law), "") + "run 400\n");
     ASSERT_TRUE(succeeded(types));
     ASSERT_TRUE(succeeded(same));
     EXPECT_EQ(thermo_difference(types, same, law_columns), 0.0);
@@ -644,7 +644,7 @@ TEST_F(LawsOnFault, PropertiesOfParticlesActLikeTheNumbersOfTypes) {
     // Now each particle has other numbers.
     const OwnLaw own(law, "1+0.2*sin(7*id)");
     const std::string half = "half." + std::string(law.name);
-    const std::string halves = "run 500\nwrite_restart " + half + "\nrun 500\n";
+    const std::string halves = "run 200\nwrite_restart " + half + "\nrun 200\n";
     const std::string script = from_data(own.with(plain, law), "") + halves;
     const Result one = run_text(script), two = run_text(script, {{"newton", "on"}}, 2);
     ASSERT_TRUE(succeeded(one));
@@ -653,13 +653,13 @@ TEST_F(LawsOnFault, PropertiesOfParticlesActLikeTheNumbersOfTypes) {
     EXPECT_LT(thermo_difference(one, two, law_columns), 1e-7);
     if (law.name == std::string("coulomb")) {
       const Result hybrid =
-          run_text(from_data(own.with(under_hybrid, law), "") + "run 500\nrun 500\n");
+          run_text(from_data(own.with(under_hybrid, law), "") + "run 200\nrun 200\n");
       ASSERT_TRUE(succeeded(hybrid));
       EXPECT_LT(thermo_difference(one, hybrid, law_columns), 1e-9);
     }
 
     // A restart file has the numbers of particles and the names of the properties.
-    const Result rest = run_text(from_restart(half, own.fix) + "run 500\n");
+    const Result rest = run_text(from_restart(half, own.fix) + "run 200\n");
     ASSERT_TRUE(succeeded(rest));
     for (const char *column : {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]"})
       EXPECT_NEAR(rest.last(column), one.last(column), 1e-9 * one.last(column)) << column;
