@@ -171,6 +171,7 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         {"seed", &settings.seed},
         {"rmin", &settings.rmin},
         {"rmax", &settings.rmax},
+        {"faceradii", &settings.face_rmin, Must::not_negative, &settings.face_rmax},
         {"failures", &settings.max_failures},
         {"tolerance", &settings.tolerance},
         {"linkgap", &settings.link_gap},

@@ -676,6 +676,28 @@ void expect_refused(const std::string &name, Change change) {
   }
 }
 
+TEST(Packing, DiscsAtTheFaultMayHaveARangeOfTheirOwn) {
+  LSM::PackingSettings s = settings(24.0, 3);
+  const LSM::Packing plain = LSM::make_packing(s);
+  s.face_rmin = s.rmin;
+  s.face_rmax = s.rmax;
+  const LSM::Packing same = LSM::make_packing(s);
+  EXPECT_EQ(same.links, plain.links);
+  s.face_rmin = 0.5;
+  s.face_rmax = 0.8;
+  for (const bool mirror : {false, true}) {
+    s.mirror = mirror;
+    const LSM::Packing p = LSM::make_packing(s);
+    EXPECT_GT(p.fault_tangent[0] + p.fault_tangent[1], 20);
+    EXPECT_LT(p.rmin_found, 0.2);
+    for (const LSM::Disc &d : p.discs) {
+      if (std::fabs(d.y - 0.5 * s.width) - d.r >= s.link_gap) continue;
+      EXPECT_GE(d.r, 0.5);
+      EXPECT_LE(d.r, 0.8);
+    }
+  }
+}
+
 TEST(Packing, RefusesImpossibleSettings) {
   using S = LSM::PackingSettings;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -701,6 +723,19 @@ TEST(Packing, RefusesImpossibleSettings) {
   expect_refused("linkratio", [](S &s) { s.link_ratio = 0.99; });
   expect_refused("linkratio", [](S &s) { s.link_ratio = 1.26; });
   expect_refused("loose", [](S &s) { s.rmin = 0.95; });
+  expect_refused("faceradii", [](S &s) { s.face_rmin = 0.5; });
+  expect_refused("faceradii", [](S &s) { s.face_rmin = s.face_rmax = 1.1; });
+  expect_refused("faceradii", [](S &s) { s.face_rmax = 0.5; });
+  // discs so small that hardly one is held
+  expect_refused("loose", [](S &s) {
+    s.face_rmin = 0.1;
+    s.face_rmax = 0.2;
+  });
+  // a hole from plate to fault
+  expect_refused("rmin", [](S &s) {
+    s.max_failures = 5;
+    s.remove_loose = false;
+  });
   expect_refused("faultzone", [&](S &s) { s.fault_zone = nan; });
 }
 

@@ -136,7 +136,8 @@ class BlockPacker {
     const double line = 0.5 * set_.width, away = ylo_ < line ? -1.0 : 1.0;
     until_full([&](double xlo, double xsize) {
       const double x = wrap(xlo + xsize * random_.uniform());
-      const double r = random_.uniform(set_.rmin, set_.rmax);
+      const auto [least, most] = range(true);
+      const double r = random_.uniform(least, most);
       return insert_if_it_fits(x, line + away * r, r);
     });
   }
@@ -213,6 +214,10 @@ class BlockPacker {
     if (!nearest(px, py, near)) return false;
     Entry circles[2];
     const int n = tangent_circles(near, circles);
+    const auto [least, most] = range(set_.face_rmax > 0.0 && touches_fault(py, near));
+    const auto in_range = [least = least, most = most](double r) {
+      return r >= least && r <= most;
+    };
     for (int i = 0; i < n; ++i) {
       auto &[x, y, r] = circles[i];
       if (!in_range(r) || !polish(near, x, y, r) || !in_range(r)) continue;
@@ -222,7 +227,18 @@ class BlockPacker {
     return false;
   }
 
-  bool in_range(double r) const { return r >= set_.rmin && r <= set_.rmax; }
+  /// Radii of discs, of which those at the fault line may have their own.
+  std::pair<double, double> range(bool at_fault) const {
+    if (at_fault && set_.face_rmax > 0.0) return {set_.face_rmin, set_.face_rmax};
+    return {set_.rmin, set_.rmax};
+  }
+
+  /// Whether one of the objects around a point at height py is the fault line.
+  bool touches_fault(double py, const Object *near) const {
+    return std::any_of(near, near + 3, [this, py](const Object &o) {
+      return o.line && std::fabs(py + o.y - 0.5 * set_.width) < 0.25 * set_.width;
+    });
+  }
 
   static void offer(Object *near, const Object &o) {
     if (o.s >= near[2].s) return;
@@ -402,11 +418,17 @@ void check(const PackingSettings &s) {
     if (!(p.second > 0.0) || !(p.second < 1e300))
       reject(p.first, p.second, "a positive finite number", "");
   if (!(s.rmin < s.rmax)) reject("rmin", s.rmin, "a value below rmax = ", s.rmax);
+  if (s.face_rmin != 0.0 || s.face_rmax != 0.0) {
+    if (!(s.face_rmin > 0.0) || !(s.face_rmin <= s.face_rmax))
+      reject("faceradii", s.face_rmin, "a number above 0, and at most the second, ", s.face_rmax);
+    if (!(s.face_rmax <= s.rmax)) reject("faceradii", s.face_rmax, "at most rmax = ", s.rmax);
+  }
+  const double smallest = s.face_rmax > 0.0 ? std::min(s.rmin, s.face_rmin) : s.rmin;
   if (s.max_failures < 1) reject("failures", s.max_failures, "at least ", 1);
   if (!(s.tolerance <= 1e-4)) reject("tolerance", s.tolerance, "at most ", 1e-4);
   // Discs that overlap within the tolerance must still count as tangent.
-  if (!(s.link_gap < 0.1 * s.rmin))
-    reject("linkgap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
+  if (!(s.link_gap < 0.1 * smallest))
+    reject("linkgap", s.link_gap, "less than rmin/10, also of faceradii: ", 0.1 * smallest);
   if (!(s.link_ratio >= 1.0) || !(s.link_ratio <= MOST_LINK_RATIO))
     reject("linkratio", s.link_ratio, "1 to ", MOST_LINK_RATIO);
   if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
@@ -650,6 +672,28 @@ Faces faces_of(const PackingSettings &s, const Packing &packing) {
 
 /// With less, the blocks are rubble that touches in a few places. (*)
 constexpr double LEAST_COVERED = 1.0 / 3.0;
+/// The same of the number of discs at the fault line. (*)
+constexpr double LEAST_LEFT = 0.1;
+
+/// Rejects a block with a hole from plate to fault: somewhere along x it has no disc.
+void reject_hole(const PackingSettings &s, const Packing &packing, int block) {
+  std::vector<std::pair<double, double>> covered;
+  for (const Disc &d : packing.discs)
+    if (d.block == block && !d.plate) covered.emplace_back(d.x - d.r, d.x + d.r);
+  if (covered.empty()) return;
+  std::sort(covered.begin(), covered.end());
+  double reached = 0.0;
+  for (const auto &one : covered) reached = std::max(reached, one.second - s.length);
+  covered.emplace_back(s.length + std::min(0.0, covered.front().first), s.length);
+  for (const auto &[from, to] : covered) {
+    if (from > reached + s.link_gap)
+      reject("rmin", s.rmin, "radii that fill the blocks, but ",
+             (block == 0 ? "the lower one has a hole from plate to fault at x = "
+                         : "the upper one has a hole from plate to fault at x = ") +
+                 std::to_string(0.5 * (from + reached)));
+    reached = std::max(reached, to);
+  }
+}
 
 }  // namespace
 
@@ -676,11 +720,13 @@ Packing make_packing(const PackingSettings &settings) {
                "discs of this range of radii to hold each other, but none of the ",
                block == 0 ? "lower block is left" : "upper block is left");
     const Faces after = faces_of(settings, result);
-    if (before.covered >= LEAST_COVERED && after.covered < LEAST_COVERED)
+    if ((before.covered >= LEAST_COVERED && after.covered < LEAST_COVERED) ||
+        after.discs < LEAST_LEFT * before.discs)
       reject("loose", "remove", "discs of this range of radii to hold each other, but ",
              std::to_string(result.discs.size()) + " are left, " + std::to_string(after.discs) +
                  " of " + std::to_string(before.discs) +
                  " tangent to the fault line; give a wider range, or loose keep");
+    for (const int block : {0, 1}) reject_hole(settings, result, block);
   }
   measure(settings, result);
   return result;

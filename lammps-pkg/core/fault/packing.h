@@ -13,12 +13,13 @@ namespace LSM {
 /// Settings of make_packing(), by the keywords of create_lsm_fault in messages. Lengths in model
 /// units.
 struct PackingSettings {
-  double length = 120.0;     ///< period along the fault (x); at least 8 rmax
-  double width = 30.0;       ///< size across the fault (y); the fault is the line y = width/2
-  double rmin = 0.1;         ///< smallest radius
-  double rmax = 1.0;         ///< largest radius
-  uint64_t seed = 1;         ///< seed of the random numbers
-  int max_failures = 5000;   ///< a tile is full after so many failures in a row
+  double length = 120.0;  ///< period along the fault (x); at least 8 rmax
+  double width = 30.0;    ///< size across the fault (y); the fault is the line y = width/2
+  double rmin = 0.1;      ///< smallest radius
+  double rmax = 1.0;      ///< largest radius
+  double face_rmin = 0.0, face_rmax = 0.0;  ///< (*) those of discs at the fault line, if above 0
+  uint64_t seed = 1;                        ///< seed of the random numbers
+  int max_failures = 5000;                  ///< a tile is full after so many failures in a row
   double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
   double fault_zone = 0.25;  ///< (*) discs with a surface so close to the fault line are flagged
@@ -79,6 +80,8 @@ std::pair<double, double> link_vector(double length, const Disc &a, const Disc &
 /// tries in it failed. The cost is linear in the length. Finally (4) (*) discs that their links
 /// do not hold are removed: see Packing::loose. With mirror (*) only the lower block is packed,
 /// and each of its discs at the fault line faces one of the same radius at the same x.
+///
+/// With face_rmax (*) the radii of all discs that touch the fault line are in a range of their own.
 ///
 /// Without random_faces (*), as in the later particle code of one of the authors, there is no step
 /// (1), both blocks are packed at once, the fault line is one of the lines of step (3), and there
