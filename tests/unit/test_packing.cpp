@@ -733,8 +733,10 @@ TEST(Packing, RefusesImpossibleSettings) {
   });
   // a hole from plate to fault
   expect_refused("rmin", [](S &s) {
-    s.max_failures = 5;
-    s.remove_loose = false;
+    s.length = 8.0;
+    s.width = 6.0;
+    s.max_failures = 10;
+    s.seed = 3;
   });
   expect_refused("faultzone", [&](S &s) { s.fault_zone = nan; });
 }
