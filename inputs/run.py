@@ -138,7 +138,7 @@ class Fault(Job):
 
 
 class Rupture(Job):
-    """A scene of a rupture, rupture_*.in; its slip history is rupture.slip.bin."""
+    """A scene of ruptures, rupture_*.in or fault_3d.in; its slip history is rupture.slip.bin."""
     catalogue, on_ranks, OWN = "rupture.ruptures.csv", True, Fault.OWN
     scene = None  # of each subclass
 
@@ -161,7 +161,10 @@ class Rupture(Job):
         return int(re.findall(r"^Loop time of .* for (\d+) steps", said, re.M)[-1]) if "\nTotal wall time:" in said else None
 
 
-RUPTURES = {path.stem: type(path.stem, (Rupture,), {"scene": path.stem}) for path in sorted(INPUTS.glob("rupture_tpv*.in"))}
+RUPTURES = {
+    path.stem: type(path.stem, (Rupture,), {"scene": path.stem})
+    for path in [*sorted(INPUTS.glob("rupture_tpv*.in")), INPUTS / "fault_3d.in"]
+}
 
 
 class Slider(Job):

@@ -25,6 +25,7 @@ KEYS = (
     ("tpv205 tpv3 tpv5 single absorbing_step", "flat ruptures, single events, time steps"),
     ("nature slow laws", "earthquakes, slow plates, friction laws"),
     ("sources", "ruptures of the leaky fault as sources of waves"),
+    ("plane", "ruptures of the fault in three dimensions"),
     ("speed", "speed beside other programs"),
 )
 # pattern of files, what they are, what makes them, study
@@ -43,6 +44,7 @@ FILES = (
     ("catalogues/* fig13_slider_sizes.*", "block-sliders", "publish.py, postproc histograms", "campaign"),
     ("walk/* walk.*", "stations between the block-slider and the fault", "walk.py", "walk"),
     ("nature.*", "the models beside earthquakes", "nature.py", "campaign, walk"),
+    ("fault_3d/* fault_3d.*", "ruptures, patches and slip of one rupture of the fault in three dimensions", "fault_3d.py", "fault-3d"),
     ("sources.*", "duration, energies and stress drop of ruptures of the leaky fault", "sources.py", "article"),
     ("slow-driving*", "slow plates", "study.sh", "slow-driving, slow-driving-slider"),
     ("laws.csv", "six friction laws", "study.sh", "laws"),

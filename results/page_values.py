@@ -7,6 +7,7 @@ from typing import NamedTuple
 from lsm import LOADING, paper, scaling
 from lsm.analysis import mean_and_error, numbers_of
 from lsm.tables import number, read
+import fault_3d
 import sources
 import speed_tables
 import validation_tables
@@ -175,5 +176,5 @@ def law_values():
 def all_values(postproc):
     return [
         *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *scaling_values(),
-        *speed_values(), *sources.source_values(), *validation_tables.rupture_values()
+        *speed_values(), *sources.source_values(), *fault_3d.all_values(), *validation_tables.rupture_values()
     ]

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Ruptures of inputs/fault_3d.in in fault_3d/: numbers of sentences (page_values.py), and the figure fault_3d.png, .svg.
+
+fault_3d.py                         draws the figure
+fault_3d.py HISTORY EVENT RUPTURES  writes fault_3d/event.csv: slip of a rupture, by its number, from the slip history of its run
+
+fault_3d/patches.csv: places and radii of the patches of each seed, as the logs of the runs print them.
+"""
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+
+FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent / "python"))
+import lsm  # noqa: E402
+from lsm.drawing import draw  # noqa: E402
+from lsm.tables import read  # noqa: E402
+from values import Value  # noqa: E402
+
+DATA, SEEDS = FOLDER / "fault_3d", (1, 2)
+LEAST = 1e-3  # moment from which magnitudes count: above that of the smallest patch
+NODES = 10  # smallest area of ruptures whose end is asked for
+CIRCLE = 16 / 7 / math.pi**1.5  # moment of a circular crack over stress drop and area^1.5, for a Poisson ratio of 1/4
+
+
+def ruptures(seed):
+    return lsm.read_catalogue(DATA / f"seed_{seed}.ruptures.csv.xz")
+
+
+def patch_of(seed, rows):
+    """Radius of the largest patch in which each rupture began, 0 if none."""
+    header, radius = rows.header, np.zeros(len(rows))
+    length, depth = float(header["length"]), float(header["depth"])
+    for row in read(DATA / "patches.csv"):
+        if int(row["seed"]) != seed:
+            continue
+        x, z, r = (float(row[key]) for key in ("x", "z", "radius"))
+        away = [(rows[key] - place + 0.5 * period) % period - 0.5 * period
+                for key, place, period in (("x_hypocentre", x, length), ("z_hypocentre", z, depth))]
+        radius = np.where(np.hypot(*away) <= r + 1, np.maximum(radius, r), radius)
+    return radius
+
+
+def stopped(seed, rows):
+    """Whether each rupture is no wider than the patch in which it began."""
+    return np.maximum(rows["rupture_length"], rows["rupture_width"]) <= 2 * patch_of(seed, rows) + 1
+
+
+def all_values():
+    """Counts, b of magnitudes of moments, moment over that of a circular crack, and the share that stops within a patch."""
+    source = "fault_3d/seed_*.ruptures.csv.xz"
+    b = []
+    for seed in SEEDS:
+        rows = ruptures(seed)
+        moment, area = rows["slip_moment"], rows["rupture_area"]
+        yield Value(f"plane.ruptures.{seed}", len(rows), source=source)
+        large = moment[moment >= LEAST]
+        b.append((1.5 / np.log(large / LEAST).mean(), len(large)))
+        yield Value(f"plane.b.{seed}", b[-1][0], b[-1][0] / math.sqrt(len(large)), n=len(large), source=source)
+        some = area >= NODES
+        yield Value(f"plane.stopped.{seed}", stopped(seed, rows)[some].mean(), n=int(some.sum()), source=source)
+        yield Value(f"plane.whole.{seed}", int((area >= 0.5 * float(rows.header["length"]) * float(rows.header["depth"])).sum()), source=source)
+        some = area >= math.pi * 16
+        over = moment[some] / (CIRCLE * rows["stress_drop"][some] * area[some]**1.5)
+        yield Value(f"plane.crack.{seed}", np.median(over), n=int(some.sum()), source=source)
+        yield Value(f"plane.large.{seed}", int(some.sum()), source=source)
+    yield from half_spacing()
+
+
+def half_spacing():
+    """A smaller fault with patches of one size at half the spacing, over the same at the whole: moments and times between ruptures of the
+    smallest patch and more, and numbers of smaller ones."""
+    found, source = [], "fault_3d/spacing_*.ruptures.csv.xz"
+    for name in "half", "whole":
+        rows = lsm.read_catalogue(DATA / f"spacing_{name}.ruptures.csv.xz")
+        large = rows["rupture_area"] >= math.pi * 16
+        found.append((np.median(rows["slip_moment"][large]), np.median(np.diff(rows["t_start"][large]))))
+        yield Value(f"plane.{name}.small", int((~large).sum()), n=len(rows), source=source)
+    for key, over, under in zip(("moment", "time"), *found):
+        yield Value(f"plane.half.{key}", 1 - over / under, source=source)
+
+
+def write_event(history, number, path):
+    """Slip of the rupture in each bin."""
+    one = next(row for row in lsm.read_catalogue(path) if row["event_id"] == int(number))
+    records = lsm.read_slip(history)
+    inside = records[(records["step_begin"] >= one["step_start"]) & (records["step_end"] <= one["step_end"])]
+    slip = inside["slip"][..., 0].sum(axis=0)
+    with open(DATA / "event.csv", "w", encoding="utf-8") as out:
+        out.write("x,z,slip\n")
+        for i, row in enumerate(slip):
+            for j, value in enumerate(row):
+                out.write(f"{float(records.header['x0']) + i + 0.5:g},{float(records.header['z0']) + j + 0.5:g},{value:.4g}\n")
+
+
+SCRIPT = """set multiplot layout 2,2 spacing 0.12,0.13
+unset key
+set size ratio -1
+set xrange [-32:32]; set yrange [-64:0]
+set xlabel 'along strike'; set ylabel 'along dip'; set cblabel 'slip'
+set palette defined (0 '#ffffff', 0.3 '#fdd49e', 0.6 '#ef6548', 1 '#7f0000')
+set cbrange [0:*]; set format cb '%.0e'
+set title 'slip of one rupture; circles: patches'
+set datafile separator comma
+plot base.'/event.csv' skip 1 using 1:2:3 with image, base.'/patches.csv' skip 1 using ($1 == 1 ? $2 : 1/0):3:4 with circles lc rgb '#444444', \\
+ for [s in '-64 64'] base.'/patches.csv' skip 1 using ($1 == 1 ? $2+s : 1/0):3:4 with circles lc rgb '#444444', \\
+ for [s in '-64 64'] base.'/patches.csv' skip 1 using ($1 == 1 ? $2 : 1/0):($3+s):4 with circles lc rgb '#444444'
+set size noratio
+set autoscale
+set logscale xy; set format xy '10^{%L}'
+set xlabel 'area'; set ylabel 'moment'; set title 'line: circular crack, median stress drop'
+plot table index 0 using 3:4 with points lt 1 ps 0.5, table index 1 using 3:4 with points lt 2 ps 0.5, [30:4096] DROP*x**1.5 lc black
+set xlabel 'moment'; set ylabel 'ruptures of at least this moment'; set title 'broken line: b = 1'
+plot table index 0 using 4:5 smooth unique with steps lt 1, table index 1 using 4:5 smooth unique with steps lt 2, [1e-3:0.06] x**(-2./3) lc black dt 2
+unset logscale; set format xy '%g'
+set xlabel 'time'; set ylabel 'along strike'; set title 'seed 1; lines: ruptures of 10 nodes and more'
+set yrange [-32:32]; set xtics 1000; set clip two
+plot for [s in '0 -64'] table index 0 using 1:($3 >= NODES ? $2+s : 1/0):(0):6 with vectors nohead lt 1, table index 0 using 1:2 with dots lt 2
+unset multiplot"""
+
+
+def figure():
+    drops, path = [], DATA.parent / "fault_3d.csv"
+    with open(path, "w", encoding="utf-8") as out:
+        out.write("# time,begin along strike,area,moment,ruptures of at least this moment,length along strike\n")
+        for seed in SEEDS:
+            rows = ruptures(seed)
+            rank = len(rows) - np.argsort(np.argsort(rows["slip_moment"], kind="stable"), kind="stable")
+            for row, n in zip(rows, rank):
+                begin = row["x_hypocentre"] if row["rupture_area"] < NODES else row["x_begin"]
+                cells = (row["t_start"], begin, row["rupture_area"], row["slip_moment"], n, row["rupture_length"])
+                out.write(",".join(f"{cell:.5g}" for cell in cells) + "\n")
+            drops += list(rows["stress_drop"][rows["rupture_area"] >= 50])
+            out.write("\n\n")
+    script = SCRIPT.replace("DROP", f"{CIRCLE * float(np.median(drops)):.4g}").replace("NODES", str(NODES))
+    draw(DATA.parent / "fault_3d", script, 1000, 850)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (1, 4):
+        sys.exit(__doc__)
+    if len(sys.argv) == 4:
+        write_event(*sys.argv[1:])
+    else:
+        figure()
