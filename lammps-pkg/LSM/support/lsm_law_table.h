@@ -10,6 +10,7 @@
 #include "pointers.h"
 
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -79,9 +80,9 @@ class LSMLawTable : protected Pointers {
   LSMTypePairs<int>
       given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
   // number of the property that particles have in its place, from 1 on, or 0; such a coefficient is
-  // BY_PARTICLE, which none can be
+  // BY_PARTICLE, which nobody gives
   LSMTypePairs<int> by_particle[MAX_PARAMETERS];
-  static constexpr double BY_PARTICLE = -1.0;
+  static constexpr double BY_PARTICLE = -std::numeric_limits<double>::max();
   std::vector<std::string> properties_;
   std::vector<double> parsed;
   std::vector<int> parsed_property;
