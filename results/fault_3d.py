@@ -21,6 +21,7 @@ from lsm.tables import read  # noqa: E402
 from values import Value  # noqa: E402
 
 DATA, SEEDS = FOLDER / "fault_3d", (1, 2)
+LOWER = 1e-5, 3e-5, 1e-4, 3e-4  # beside LEAST, to see how much it decides
 LEAST = 1e-3  # moment from which magnitudes count: above that of the smallest patch
 NODES = 10  # smallest area of ruptures whose end is asked for
 CIRCLE = 16 / 7 / math.pi**1.5  # moment of a circular crack over stress drop and area^1.5, for a Poisson ratio of 1/4
@@ -49,17 +50,23 @@ def stopped(seed, rows):
     return np.maximum(rows["rupture_length"], rows["rupture_width"]) <= 2 * patch_of(seed, rows) + 1
 
 
+def b_value(moment, least):
+    """Of magnitudes of moments from `least` on (Aki 1965), and of how many."""
+    large = moment[moment >= least]
+    return 1.5 / np.log(large / least).mean(), len(large)
+
+
 def all_values():
     """Counts, b of magnitudes of moments, moment over that of a circular crack, and the share that stops within a patch."""
     source = "fault_3d/seed_*.ruptures.csv.xz"
-    b = []
+    lower = []
     for seed in SEEDS:
         rows = ruptures(seed)
         moment, area = rows["slip_moment"], rows["rupture_area"]
         yield Value(f"plane.ruptures.{seed}", len(rows), source=source)
-        large = moment[moment >= LEAST]
-        b.append((1.5 / np.log(large / LEAST).mean(), len(large)))
-        yield Value(f"plane.b.{seed}", b[-1][0], b[-1][0] / math.sqrt(len(large)), n=len(large), source=source)
+        b, n = b_value(moment, LEAST)
+        yield Value(f"plane.b.{seed}", b, b / math.sqrt(n), n=n, source=source)
+        lower += [b_value(moment, least)[0] for least in LOWER]
         some = area >= NODES
         yield Value(f"plane.stopped.{seed}", stopped(seed, rows)[some].mean(), n=int(some.sum()), source=source)
         yield Value(f"plane.whole.{seed}", int((area >= 0.5 * float(rows.header["length"]) * float(rows.header["depth"])).sum()), source=source)
@@ -67,6 +74,8 @@ def all_values():
         over = moment[some] / (CIRCLE * rows["stress_drop"][some] * area[some]**1.5)
         yield Value(f"plane.crack.{seed}", np.median(over), n=int(some.sum()), source=source)
         yield Value(f"plane.large.{seed}", int(some.sum()), source=source)
+    yield Value("plane.b_lower.least", min(lower), n=len(lower), source=source)
+    yield Value("plane.b_lower.most", max(lower), n=len(lower), source=source)
     yield from half_spacing()
 
 
