@@ -433,12 +433,15 @@ constexpr struct {
      "date datestr datestring isodate yyyymmdd ymd yearmonthday ddmmyyyy dmy daymonthyear mmddyyyy "
      "mdy monthdayyear fecha tgl",
      ""},
-    {Part::year, "year yr yyyy", "y yy ye"},
-    {Part::month, "month mon", "mo mm m mn"},
-    {Part::day, "day dom dayofmonth", "dy da dd d"},
-    {Part::hour, "hour hours hr hrs hh", "ho h hou"},
-    {Part::minute, "minute minutes minu mins min mnt", "mn mi mm m"},
-    {Part::second, "second seconds sec secs", "se ss sss ssss s sc"},
+    {Part::year, "year yr yyyy ano anio anno annee anne jahr", "y yy ye ao"},
+    {Part::month, "month mon mes mese mois monat", "mo mm m mn"},
+    {Part::day, "day dom dayofmonth dia giorno jour", "dy da dd d tag"},
+    {Part::hour, "hour hours hr hrs hh ora heure stunde", "ho h hou"},
+    {Part::minute, "minute minutes minu mins min mnt minuto minutos minuti", "mn mi mm m"},
+    {Part::second,
+     "second seconds sec secs segundo segundos seg secondi secondo seconde secondes sekunde "
+     "sekunden sek",
+     "se ss sss ssss s sc"},
     {of_decimal_year, "decimalyear decyear dyear yeardecimal yeardec fractionalyear decimaldate",
      ""},
     {of_day_of_year, "dayofyear doy jday julianday julday yday", ""},
@@ -549,6 +552,11 @@ TimeStyle style_of(std::string_view name) {
 TimeColumns::TimeColumns(const Fields &names) : used_(names.size(), false) {
   std::vector<int> roles;
   for (const std::string &name : names) roles.push_back(role_of(name));
+  // A time of day beside a column of minutes is the hour: hora, minuto.
+  if (std::find(roles.begin(), roles.end(), Part::minute) != roles.end() &&
+      std::find(roles.begin(), roles.end(), Part::hour) == roles.end())
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (letters_of(names[i]) == "hora") roles[i] = Part::hour;
   // Short names from the left, then from the right, as one may be known by the one beside it.
   const auto is_short = [&](std::size_t i) {
     if (roles[i] != no_role) return;
