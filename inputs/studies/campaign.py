@@ -3,6 +3,7 @@
 begin after `LOADING`, at 8000. Ruptures of the sliders are steady from time 40000 on in our settings."""
 from default import costs
 from lsm import LOADING
+from recipes import fit_command, times_command
 
 PAPER = "(256|614|972|1450|1928)"
 
@@ -16,8 +17,8 @@ def numbers(run):
     window = f"--from {begin:.15g}" if begin else ""
     return {
         "count": f"count {run.catalogue} {window} --size 1e-3 --size 1",
-        "fit": f"fit {run.catalogue} {window} --replicas 0 --no-comparison --no-picture -o OUT",
-        "times": f"intervals {run.catalogue} {window} --method likelihood --delta 1 --replicas 0 --no-picture -o OUT",
+        "fit": fit_command(run.catalogue, window),
+        "times": times_command(run.catalogue, window),
     }
 
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is made of a study that has no recipe NAME.py of its own. The first loading of faults is left out."""
+from recipes import fit_command, times_command
 
 
 def numbers(run):
     window = f"--from {run.loaded:.15g}" if run.loaded else ""
     return {
         "count": f"count {run.catalogue} {window}",
-        "fit": f"fit {run.catalogue} {window} --replicas 0 --no-comparison --no-picture -o OUT",
-        "times": f"intervals {run.catalogue} {window} --method likelihood --delta 1 --replicas 0 --no-picture -o OUT",
+        "fit": fit_command(run.catalogue, window),
+        "times": times_command(run.catalogue, window),
     }
 
 

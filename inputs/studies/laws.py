@@ -4,7 +4,7 @@ time units at a thousandth of the paper's velocity) before and after. omori: fro
 is over, c held at 0; around: from 1 on. near, far: events per main shock within 300 time units and beyond. distance: of the times
 over their mean to those of Southern California. saw_tooth: from PE against steps."""
 from default import costs
-from recipes import ratio
+from recipes import fit_command, ratio, times_command
 
 
 def _loaded(run):
@@ -17,8 +17,8 @@ def numbers(run):
     return {
         "shape": f"lsm.regime {run.folder}/fault.pe.bin {begin}",
         "count": f"count {run.catalogue} {begin} --size 1e-4 --size 1e-3 --size 1e-2 --size 0.1",
-        "fit": f"fit {run.catalogue} {begin} --range 1e-3:1 --replicas 0 --no-comparison --no-picture -o OUT",
-        "times": f"intervals {run.catalogue} {begin} --threshold 1e-3 --method likelihood --delta 1 --replicas 0 --no-picture -o OUT",
+        "fit": fit_command(run.catalogue, begin, "--range 1e-3:1"),
+        "times": times_command(run.catalogue, begin, "--threshold 1e-3"),
         "omori": f"{shocks} --first 300 --hold-c 0 --replicas 0 --no-picture -o OUT",
         "around": f"{shocks} --first 1 --replicas 0 --no-picture -o OUT",
         "beside": f"nature.py {run.postproc} {run.catalogue} {begin} --threshold 1e-3",

@@ -89,6 +89,16 @@ def ratio(a, b):
     return a / b if b else math.nan
 
 
+def fit_command(catalogue, *options):
+    """postproc's command for exponents of sizes, without what only a reader of the output needs."""
+    return " ".join(["fit", str(catalogue), *filter(None, options), "--replicas 0 --no-comparison --no-picture -o OUT"])
+
+
+def times_command(catalogue, *options):
+    """The same for gamma and B of inter-event times, delta = 1, by maximum likelihood."""
+    return " ".join(["intervals", str(catalogue), *filter(None, options), "--method likelihood --delta 1 --replicas 0 --no-picture -o OUT"])
+
+
 def log(x):
     return math.log(x) if x > 0 else math.nan
 

@@ -2,23 +2,23 @@
 """long: events picked with a memory of 3 time units; those of the run are picked with the default. exponents: sizes 1e-4 to 1e-1 and
 1e-3 to 1e-1; gamma and B: inter-event times of events >= 1e-3, delta = 1 (maximum likelihood)."""
 from lsm import LOADING
+from recipes import fit_command, times_command
 
 drawings = ["regime-map"]
 
 
 def numbers(run):
     begin = f"--from {LOADING / run.shorten:.15g}"
-    fits = "--range 1e-4:1e-1 --range 1e-3:1e-1 --replicas 0 --no-comparison --no-picture -o OUT"
-    times = "--threshold 1e-3 --method likelihood --delta 1 --replicas 0 --no-picture -o OUT"
+    ranges, threshold = "--range 1e-4:1e-1 --range 1e-3:1e-1", "--threshold 1e-3"
     long = f"pick {run.folder}/fault.pe.bin --memory-time 3 --overwrite -o OUT.picked.csv && {run.postproc}"
     return {
         "shape": f"lsm.regime {run.folder}/fault.pe.bin --catalogue {run.catalogue} {begin}",
         "count": f"count {run.catalogue} {begin}",
-        "fit": f"fit {run.catalogue} {begin} {fits}",
-        "times": f"intervals {run.catalogue} {begin} {times}",
+        "fit": fit_command(run.catalogue, begin, ranges),
+        "times": times_command(run.catalogue, begin, threshold),
         "long_count": f"{long} count OUT.picked.csv {begin}",
-        "long_fit": f"{long} fit OUT.picked.csv {begin} {fits}",
-        "long_times": f"{long} intervals OUT.picked.csv {begin} {times}",
+        "long_fit": f"{long} {fit_command('OUT.picked.csv', begin, ranges)}",
+        "long_times": f"{long} {times_command('OUT.picked.csv', begin, threshold)}",
     }
 
 

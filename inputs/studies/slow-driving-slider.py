@@ -2,7 +2,7 @@
 """Numbers from a plate displacement of 120 on. events: per displacement of 1000; exponent: sizes 1 to 100; gamma: inter-event times
 of events >= 1 (>= 100), delta = 1; p: two-sample tests of sizes >= 1 and of the displacements between them against the run without
 leaps of the same chain and velocity, if there is one; steps: those computed, neither jumped nor leapt over."""
-from recipes import ratio
+from recipes import fit_command, ratio, times_command
 
 reference = "{blocks}_{seed}_{velocity}_0"
 drawings = ["slow-driving-slider"]
@@ -10,14 +10,12 @@ drawings = ["slow-driving-slider"]
 
 def numbers(run):
     begin = f"--from {120 / run.shorten / run['velocity']:.15g}"
-    times = f"intervals {run.catalogue} {begin}"
-    likelihood = "--method likelihood --delta 1 --replicas 0 --no-picture -o OUT"
     return {
         "whole": f"count {run.catalogue} --size 100",
         "count": f"count {run.catalogue} {begin} --size 0.01 --size 1 --size 100 --size 1000",
-        "fit": f"fit {run.catalogue} {begin} --range 1:100 --replicas 0 --no-comparison --no-picture -o OUT",
-        "times_1": f"{times} --threshold 1 {likelihood}",
-        "times_100": f"{times} --threshold 100 {likelihood}",
+        "fit": fit_command(run.catalogue, begin, "--range 1:100"),
+        "times_1": times_command(run.catalogue, begin, "--threshold 1"),
+        "times_100": times_command(run.catalogue, begin, "--threshold 100"),
     }
 
 

@@ -6,7 +6,7 @@ displacement of 0.04; same: how many of the events >= 1e-2 of the first run (of)
 a factor of 2 in size, and how many by chance."""
 import math
 
-from recipes import ratio
+from recipes import fit_command, ratio, times_command
 
 reference = "2.5e-4_no_leaps"
 drawings = ["slow-driving"]
@@ -14,13 +14,12 @@ drawings = ["slow-driving"]
 
 def numbers(run):
     end = f"--to {1200 + 18 / run.shorten / run['velocity']:.15g}"  # compression; then the plates move, over 150 time units up to their velocity
-    likelihood = "--method likelihood --delta 1 --replicas 0 --no-picture -o OUT"
     window = f"--window {0.04 / run['velocity']:.15g} --first 1 --bin-factor {math.sqrt(10):.15g}"
     return {
         "count": f"count {run.catalogue} {end}",
-        "fit": f"fit {run.catalogue} {end} --range 1e-3:1e-1 --range 1e-3:1 --range 1e-2:1 --replicas 0 --no-comparison --no-picture -o OUT",
-        "times_small": f"intervals {run.catalogue} {end} --threshold 1e-3 {likelihood}",
-        "times_large": f"intervals {run.catalogue} {end} --threshold 1e-2 {likelihood}",
+        "fit": fit_command(run.catalogue, end, "--range 1e-3:1e-1 --range 1e-3:1 --range 1e-2:1"),
+        "times_small": times_command(run.catalogue, end, "--threshold 1e-3"),
+        "times_large": times_command(run.catalogue, end, "--threshold 1e-2"),
         "around": f"aftershocks {run.catalogue} {end} --threshold 1e-3 --main-size 0.1 {window} --replicas 0 --no-picture -o OUT",
     }
 

@@ -2,7 +2,7 @@
 """exponent: sizes 1e-3 to 1; gamma: inter-event times of events >= 1e-3; p: two-sample tests against the same packing in the first
 line; bursts: events >= 1e-3 of at most 3 steps, a sign of an unstable time step. differences.csv: means over the packings; relative
 for rate, rate_2 and released."""
-from recipes import log, ratio
+from recipes import fit_command, log, ratio, times_command
 
 reference = "0.03_0_located_{seed}"
 drawings = ["work-precision"]
@@ -15,8 +15,8 @@ def _end(run):
 def numbers(run):
     return {
         "count": f"count {run.catalogue} {_end(run)} --brief 3",
-        "fit": f"fit {run.catalogue} {_end(run)} --range 1e-3:1 --replicas 0 --no-comparison --no-picture -o OUT",
-        "times": f"intervals {run.catalogue} {_end(run)} --threshold 1e-3 --method likelihood --delta 1 --replicas 0 --no-picture -o OUT",
+        "fit": fit_command(run.catalogue, _end(run), "--range 1e-3:1"),
+        "times": times_command(run.catalogue, _end(run), "--threshold 1e-3"),
     }
 
 
