@@ -23,6 +23,7 @@ from values import Value  # noqa: E402
 DATA, SEEDS = FOLDER / "fault_3d", (1, 2)
 LOWER = 1e-5, 3e-5, 1e-4, 3e-4  # beside LEAST, to see how much it decides
 LEAST = 1e-3  # moment from which magnitudes count: above that of the smallest patch
+PATCH = math.pi * 4**2  # area of the smallest patches
 NODES = 10  # smallest area of ruptures whose end is asked for
 CIRCLE = 16 / 7 / math.pi**1.5  # moment of a circular crack over stress drop and area^1.5, for a Poisson ratio of 1/4
 
@@ -70,7 +71,7 @@ def all_values():
         some = area >= NODES
         yield Value(f"plane.stopped.{seed}", stopped(seed, rows)[some].mean(), n=int(some.sum()), source=source)
         yield Value(f"plane.whole.{seed}", int((area >= 0.5 * float(rows.header["length"]) * float(rows.header["depth"])).sum()), source=source)
-        some = area >= math.pi * 16
+        some = area >= PATCH
         over = moment[some] / (CIRCLE * rows["stress_drop"][some] * area[some]**1.5)
         yield Value(f"plane.crack.{seed}", np.median(over), n=int(some.sum()), source=source)
         yield Value(f"plane.large.{seed}", int(some.sum()), source=source)
@@ -85,7 +86,7 @@ def half_spacing():
     found, source = [], "fault_3d/spacing_*.ruptures.csv.xz"
     for name in "half", "whole":
         rows = lsm.read_catalogue(DATA / f"spacing_{name}.ruptures.csv.xz")
-        large = rows["rupture_area"] >= math.pi * 16
+        large = rows["rupture_area"] >= PATCH
         found.append((np.median(rows["slip_moment"][large]), np.median(np.diff(rows["t_start"][large]))))
         yield Value(f"plane.{name}.small", int((~large).sum()), n=len(rows), source=source)
     for key, over, under in zip(("moment", "time"), *found):

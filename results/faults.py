@@ -716,19 +716,19 @@ def ratio_values(rates):
 
 def fit_values(postproc):
     """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, over those that nobody fitted, and of each of these."""
-    found, numbers = {}, NUMBERS
+    found = {}
     for fault in FAULTS:
         every = [run for length in LENGTHS for run in runs_of(fault, length)]
         rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
         for run, row in zip(every, rows):
             for kind in ("all", *(["held_out"] if run.packing > 10 else [])):
                 found.setdefault((kind, fault, run.length), []).append((run, row))
-            for key, column, error in numbers if run.packing > 10 else ():
+            for key, column, error in NUMBERS if run.packing > 10 else ():
                 yield Value(f"run.{key}.{fault}.{run.length}.{run.packing}", float(row[column]),
                             float(row[error]) if error else math.nan, "time" if key in ("B", "mean_time") else "", 1, sources([run]))
     for (kind, fault, length), some in found.items():
         source, name = sources(run for run, _ in some), f"{kind}.{fault}.{length}"
-        for key, column, error in numbers:
+        for key, column, error in NUMBERS:
             cells = [row for _, row in some if row[column]]
             if cells:
                 yield Value(f"{key}.{name}", *mean_of(cells, column, error)[:2], "time" if key in ("B", "mean_time") else "", len(cells), source)
