@@ -83,12 +83,16 @@ def report_progress(study, minutes):
     runs = [RunProgress(run) for run in study.runs.values()]
     begun, start = share_of_work(runs), time.monotonic()
 
-    def work():
-        while True:
-            try:
-                print(line_of(runs, begun, time.monotonic() - start), file=sys.stderr, flush=True)
-            except (OSError, ValueError):
-                pass  # a file is being replaced; it is read next time
-            time.sleep(60 * minutes)
+    def tell():
+        try:
+            print(line_of(runs, begun, time.monotonic() - start), file=sys.stderr, flush=True)
+        except (OSError, ValueError):
+            pass  # a file is being replaced; it is read next time
 
-    threading.Thread(target=work, daemon=True).start()
+    def go_on():
+        while True:
+            time.sleep(60 * minutes)
+            tell()
+
+    tell()  # not by the thread, which a study without anything to do would not wait for
+    threading.Thread(target=go_on, daemon=True).start()
