@@ -35,7 +35,7 @@ import slip_or_exchange  # noqa: E402
 from lsm import LOADING, slip, summary  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
-from lsm.tables import memory_of, read, write_table  # noqa: E402
+from lsm.tables import memory_of, number, read, update_table, write_table  # noqa: E402
 from publish import compressed, publish  # noqa: E402
 from values import Value  # noqa: E402
 
@@ -95,8 +95,8 @@ def rate_of(run, chosen):
 
 
 def over(runs, measure):
-    """Mean and standard error over packings of a measure of runs that gives a number and its error."""
-    found = [measure(run) for run in runs]
+    """Mean and standard error over packings of a measure of runs that gives a number, or a number and its error."""
+    found = [np.append(measure(run), math.nan)[:2] for run in runs]
     return mean_and_error(*zip(*found)) if found else (math.nan, math.nan)
 
 
@@ -232,16 +232,6 @@ def rows_of_run(postproc, folder):
     return rows
 
 
-def pick_again(postproc, *folders):
-    rows = read(PICKED) if PICKED.exists() else []
-    new = [row for folder in folders for row in rows_of_run(postproc, folder)]
-    rows = [row for row in rows if row["run"] not in {one["run"] for one in new}] + new
-    write_table(PICKED, [
-        "Series picked again (faults.py publish): ramp, a steady rise of PE in a time unit that was added to it; rates in 1000 time units;",
-        "gamma, B: by likelihood of the times above so many means, or by least squares on their density, of events of at least a size"
-    ], rows)
-
-
 # ---- ruptures by what friction takes up
 
 # A place slips while friction takes up more than that of so many plate velocities: waves move the faces past each other without it.
@@ -308,7 +298,7 @@ def ruptures_in(history, slipping=SLIPPING, merged=1):
 
 
 def find_ruptures(*folders):
-    tests = [row for row in (read(TESTED) if TESTED.exists() else []) if row["run"] not in {folder.name for folder in folders}]
+    tests = []
     for folder in folders:
         history = history_of(folder)
         name, length, time = folder.name, float(history.header["length"]), history.count * history.span / 1000
@@ -330,11 +320,10 @@ def find_ruptures(*folders):
                     for n, k in enumerate(kept, 1)
                 ]
                 (FOLDER / f"faults/{name}.slips.csv.xz").write_bytes(compressed("".join(lines)))
-    tests.sort(key=lambda row: (row["fault"], float(row["length"]), row["run"], float(row["slipping"]), float(row["merged"])))
-    write_table(TESTED, [
+    update_table(TESTED, [
         "Ruptures of at least a work of friction, in 1000 time units, and their share of all work: found with other thresholds (in",
         "velocities of the plates) and with intervals merged (faults.py publish)"
-    ], tests)
+    ], tests, lambda row: (row["fault"], float(row["length"]), row["run"], float(row["slipping"]), float(row["merged"])))
 
 
 VARIANTS, VARIED = FOLDER / "variants.csv", ("fine", "coarse", "wide")
@@ -357,14 +346,6 @@ def variant_of(postproc, folder):
     for name, (rate, error) in (rates | {key: (fits[column], fits.get(error, "")) for key, column, error in NUMBERS}).items():
         row |= {name: rate, f"{name}_error": error}
     return row
-
-
-def add_variants(postproc, *folders):
-    rows = [row for row in (read(VARIANTS) if VARIANTS.exists() else []) if row["run"] not in {folder.name for folder in folders}]
-    write_table(VARIANTS, [
-        "Runs of length 120 with another time step or width, and the usual ones of the same packings: drops >= 1e-4, slips >= 0.1 and ruptures",
-        "of a work >= 0.01 in 1000 time units, exponent, gamma and B as in the article (faults.py publish)"
-    ], sorted(rows + [variant_of(postproc, folder) for folder in folders], key=lambda row: row["run"]))
 
 
 TRAPPED, RINGING, KT = FOLDER / "trapped.csv", 1.0, 0.2  # RINGING: discs that move with shorter periods are single ones
@@ -415,7 +396,7 @@ def discs(packing, run):
     held = stiffness_of(len(radius), near[linked], along[linked], across[linked], 0.0)
     held += stiffness_of(len(radius), near[pressed], along[pressed], across[pressed], KT)
     softest = np.linalg.eigvalsh(held)[:, 0]
-    rows = [row for row in (read(TRAPPED) if TRAPPED.exists() else []) if row["run"] != Path(run).name]
+    rows = []
     for disc in np.argsort(-power[line])[:MOST_DISCS]:
         rows.append(
             dict(run=Path(run).name, seed=header["seed"], begin=steps[0] * dt, end=steps[-1] * dt, period=1 / frequency[line],
@@ -423,7 +404,7 @@ def discs(packing, run):
                  share_of_line=power[line, disc] / power[line].sum(), links=int(np.sum(near[linked] == disc)),
                  pressed=int(np.sum(near[pressed] == disc)), softest=softest[disc], softer_discs=np.mean(softest < softest[disc]),
                  own_period=2 * math.pi * math.sqrt(mass[disc] / softest[disc])))
-    write_table(TRAPPED, [
+    update_table(TRAPPED, [
         "Discs that have most of the kinetic energy of the strongest line of periods below 1; softest: smallest stiffness against displacement",
         "while all others are fixed, softer_discs: share of discs for which it is smaller (faults.py discs)"
     ], rows)
@@ -447,15 +428,6 @@ def spectrum_of(postproc, folder):
             yield dict(run=folder.name, fault=folder.name.split("_")[0], series=f"phases {number}" if number else "run", time=time,
                        **{f"rate_{least:g}": np.sum(sizes >= least) / time
                           for least in SIZES})
-
-
-def find_spectra(postproc, *folders):
-    rows = [row for row in (read(SPECTRUM) if SPECTRUM.exists() else []) if row["run"] not in {folder.name for folder in folders}]
-    rows += [row for folder in folders for row in spectrum_of(postproc, folder)]
-    write_table(
-        SPECTRUM,
-        ["Drops in 1000 time units of the series of a run, and of series whose changes have its spectrum with random phases (faults.py publish)"],
-        rows)
 
 
 # ---- bursts of single discs
@@ -501,15 +473,6 @@ def bursts_of(postproc, folder):
                 exponent_else=rows[1][f"exponent_{RANGE}"])
 
 
-def find_bursts(postproc, *folders):
-    rows = [row for row in (read(BURSTS) if BURSTS.exists() else []) if row["run"] not in {folder.name for folder in folders}]
-    rows += [bursts_of(postproc, folder) for folder in folders]
-    write_table(BURSTS, [
-        "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt, one_line: one line",
-        "more than half of that; share: of these periods; rates of drops >= 1e-4 in 1000 time units; else: without bursts (faults.py publish)"
-    ], rows)
-
-
 def publish_runs(postproc, *names):
     folders = [Path(name).resolve() for name in names]
     variants = [folder for folder in folders if folder.name.split("_")[1] in VARIED]
@@ -521,10 +484,22 @@ def publish_runs(postproc, *names):
         if not published.exists() or lsm.read_catalogue(published)["t_end"].max() < lsm.read_catalogue(new)["t_end"].max():  # a longer one stays
             publish(new, published)
     find_ruptures(*full)
-    add_variants(postproc, *variants, *(folder for folder in full if folder.name in USUAL_RUNS))
-    pick_again(postproc, *(folder for folder in usual if "_120_" in folder.name))
-    find_bursts(postproc, *(folder for folder in full if "_120_" in folder.name))
-    find_spectra(postproc, *(folder for folder in full if folder.name.endswith("_120_4")))
+    update_table(VARIANTS, [
+        "Runs of length 120 with another time step or width, and the usual ones of the same packings: drops >= 1e-4, slips >= 0.1 and ruptures",
+        "of a work >= 0.01 in 1000 time units, exponent, gamma and B as in the article (faults.py publish)"
+    ], [variant_of(postproc, folder) for folder in (*variants, *full) if folder in variants or folder.name in USUAL_RUNS], lambda row: row["run"])
+    update_table(PICKED, [
+        "Series picked again (faults.py publish): ramp, a steady rise of PE in a time unit that was added to it; rates in 1000 time units;",
+        "gamma, B: by likelihood of the times above so many means, or by least squares on their density, of events of at least a size"
+    ], [row for folder in usual if "_120_" in folder.name for row in rows_of_run(postproc, folder)])
+    update_table(BURSTS, [
+        "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt, one_line: one line",
+        "more than half of that; share: of these periods; rates of drops >= 1e-4 in 1000 time units; else: without bursts (faults.py publish)"
+    ], [bursts_of(postproc, folder) for folder in full if "_120_" in folder.name])
+    update_table(
+        SPECTRUM,
+        ["Drops in 1000 time units of the series of a run, and of series whose changes have its spectrum with random phases (faults.py publish)"],
+        [row for folder in full if folder.name.endswith("_120_4") for row in spectrum_of(postproc, folder)])
 
 
 # ---- figures of what was picked again
@@ -681,157 +656,97 @@ set title 'as the picker finds them'
 # ---- the numbers of sentences
 
 
-def rate_values():
+def values_of(form, measure, unit="", lengths=LENGTHS, **recorded):
+    """A number for each fault and length with runs that recorded what runs_of() asks for; {} in the form of the keys is both."""
     for fault in FAULTS:
-        for length in LENGTHS:
-            every, worked = runs_of(fault, length), runs_of(fault, length, column="friction_work")
-            for name, runs, measure in ("drops", every, drops), ("slips", worked, slips):
-                for least in SIZES if runs else ():
-                    value = over(runs, lambda run: measure(run, least))
-                    yield Value(f"rate.{name}.{fault}.{length}.{least:g}", *value, "1/1000", len(runs), sources(runs))
+        for length in lengths:
+            if runs := runs_of(fault, length, **recorded):
+                yield Value(form.format(f"{fault}.{length}"), *over(runs, measure), unit, len(runs), sources(runs))
 
 
-def ratio_values(rates):
-    """The largest over the smallest of these rates of the three faults, where all have one: at each length, and the largest of these."""
-    found = {one.key: one.value for one in rates}
-    for name in "drops", "slips":
-        for least in SIZES:
-            ratios = {}
-            for length in LENGTHS:
-                three = [found.get(f"rate.{name}.{fault}.{length}.{least:g}") for fault in FAULTS]
-                if None not in three:
-                    ratios[length] = max(three) / min(three)
-            for length, ratio in [*ratios.items(), ("most", max(ratios.values()))]:
-                yield Value(f"ratio.{name}.{length}.{least:g}", ratio, math.nan, "", 3, "values.csv")
-    ratios = {}
-    for length in LENGTHS:  # of ruptures, of those faults that have any
-        means = [
-            np.mean([per_length(run, run.events["size"] >= 1e-2)[0] for run in runs])
-            for runs in (runs_of(fault, length, "slips") for fault in FAULTS) if runs
-        ]
-        if len(means) > 1:
-            ratios[length] = max(means) / min(means)
-    yield Value("ratio.ruptures.most.0.01", max(ratios.values()), math.nan, "", len(ratios), "values.csv")
+SLIPS, RUPTURES = dict(column="friction_work"), dict(kind="slips")
+
+
+def ruptures_of(least):
+    return lambda run: per_length(run, run.events["size"] >= least)
+
+
+def ratio_values():
+    """How much the faults differ, the largest rate over the smallest: at the length at which they differ most, of those where several have a rate."""
+    for name, least, measure, recorded in ("slips", 0.1, lambda run: slips(run, 0.1), SLIPS), ("ruptures", 0.01, ruptures_of(0.01), RUPTURES):
+        rates = [[over(runs, measure)[0] for fault in FAULTS if (runs := runs_of(fault, length, **recorded))] for length in LENGTHS]
+        ratios = [max(some) / min(some) for some in rates if len(some) > 1]
+        yield Value(f"ratio.{name}.most.{least}", max(ratios), n=len(ratios), source="values.csv")
 
 
 def fit_values(postproc):
-    """Exponent, gamma and B of all times, and mean time, of drops >= 1e-4: over all packings, over those that nobody fitted, and of each of these."""
-    found = {}
+    """Exponent, gamma and B of all times of drops >= 1e-4, over all packings, and of those that nobody fitted also the mean time, of each."""
+    met, printed = {}, {"exponent": (f"exponent_{RANGE}", 1.07, 0.07), "gamma": ("gamma_0.0001", 0.995, 0.1)}
     for fault in FAULTS:
         every = [run for length in LENGTHS for run in runs_of(fault, length)]
         rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
-        for run, row in zip(every, rows):
-            for kind in ("all", *(["held_out"] if run.packing > 10 else [])):
-                found.setdefault((kind, fault, run.length), []).append((run, row))
-            for key, column, error in NUMBERS if run.packing > 10 else ():
-                yield Value(f"run.{key}.{fault}.{run.length}.{run.packing}", float(row[column]),
-                            float(row[error]) if error else math.nan, "time" if key in ("B", "mean_time") else "", 1, sources([run]))
-    for (kind, fault, length), some in found.items():
-        source, name = sources(run for run, _ in some), f"{kind}.{fault}.{length}"
         for key, column, error in NUMBERS:
-            cells = [row for _, row in some if row[column]]
-            if cells:
-                yield Value(f"{key}.{name}", *mean_of(cells, column, error)[:2], "time" if key in ("B", "mean_time") else "", len(cells), source)
-                for what, value in ("least", min), ("most", max):
-                    yield Value(f"{key}.{name}.{what}", value(float(row[column]) for row in cells), math.nan, "", len(cells), source)
-    # the project's own tolerances, of single runs
-    printed = {"exponent": (f"exponent_{RANGE}", 1.07, 0.07), "gamma": ("gamma_0.0001", 0.995, 0.1)}
-    for fault in FAULTS:
-        rows = [row for (kind, of, _), some in found.items() if (kind, of) == ("all", fault) for _, row in some]
+            unit = "time" if key in ("B", "mean_time") else ""
+            for length in LENGTHS if key != "mean_time" else ():
+                some = [(run, row) for run, row in zip(every, rows) if run.length == length]
+                value, own, n = mean_of([row for _, row in some], column, error)
+                if n:
+                    yield Value(f"{key}.all.{fault}.{length}", value, own, unit, n, sources(run for run, _ in some))
+            for run, row in zip(every, rows):
+                if run.packing > 10:
+                    yield Value(f"run.{key}.{fault}.{run.length}.{run.packing}", number(row, column), number(row, error), unit, 1, sources([run]))
+        # the project's own tolerances, of single runs
         met = {key: [abs(float(row[column]) - value) <= by for row in rows] for key, (column, value, by) in printed.items()}
         met["B"] = [abs(math.log(float(row["B_0.0001"]) / 15.21)) <= 0.2 for row in rows]
         for key, some in {**met, "together": [all(three) for three in zip(*met.values())]}.items():
-            yield Value(f"within.{key}.{fault}", sum(some), math.nan, "", len(rows), "values.py")
+            yield Value(f"within.{key}.{fault}", sum(some), n=len(rows), source="values.py")
         yield Value(f"within.runs.{fault}", len(rows))
 
 
 def velocity_values():
-    """Rates at half the velocity of the plates, as picked and with the loading that lacks, and over that at the full velocity."""
+    """Rates at half the velocity of the plates over those at the full one: as picked (slow), and with the loading that lacks (loaded)."""
     for fault in FAULTS:
         packings = [row["packing"] for row in read(PICKED) if row["fault"] == fault]
-        kinds = {
-            "full": of_picked(fault, packings=packings), "slow": of_picked(fault, USUAL / 2, packings=packings),
-            "loaded": of_picked(fault, USUAL / 2, True, packings=packings)
-        }
-        by_packing = {kind: {row["packing"]: row for row in rows} for kind, rows in kinds.items()}
-        paired = sorted(set.intersection(*(set(rows) for rows in by_packing.values())), key=int)
+        full, slow, loaded = ({row["packing"]: row
+                               for row in of_picked(fault, velocity, ramp, packings=packings)}
+                              for velocity, ramp in ((USUAL, False), (USUAL / 2, False), (USUAL / 2, True)))
+        paired = sorted(full.keys() & slow.keys() & loaded.keys(), key=int)
         for least in SIZES if paired else ():
-            rates = {
-                kind: [(float(rows[k][f"rate_{least:g}"]), float(rows[k][f"rate_{least:g}_error"])) for k in paired]
-                for kind, rows in by_packing.items()
-            }
-            for kind, some in rates.items():
-                yield Value(f"velocity.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*some)), "1/1000", len(paired), "picked.csv")
-                if kind != "full":
-                    ratios = [(value / full, value / full * math.hypot(own / value, error / full))
-                              for (value, own), (full, error) in zip(some, rates["full"])]
-                    yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*ratios)), "", len(paired), "picked.csv")
+            for kind, rows in ("slow", slow), ("loaded", loaded):
+                pairs = [[float(of[k][f"rate_{least:g}{end}"]) for of in (rows, full) for end in ("", "_error")] for k in paired]
+                ratios = [(value / full, value / full * math.hypot(own / value, error / full)) for value, own, full, error in pairs]
+                yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*ratios)), "", len(paired), "picked.csv")
 
 
 def estimator_values():
-    rows = estimators()
-    for fault in ("leaky", "reflecting"):
-        for over_what in "smallest size", "memory", "smallest time":
-            for way in ("likelihood", "density") if over_what != "smallest time" else ("likelihood",):
-                some = [row for row in rows if (row["fault"], row["over"], row["estimator"]) == (fault, over_what, way)]
-                for key in "gamma", "B":
-                    cells = [row[key] for row in some if math.isfinite(row[key])]
-                    for what, value in ("least", min), ("most", max):
-                        yield Value(f"estimator.{key}.{fault}.{over_what.replace(' ', '_')}.{way}.{what}", value(cells), math.nan, "", len(cells),
-                                    "estimators.csv")
+    """Least and largest gamma over the memory of the picker, and gamma and B over the smallest size."""
+    cells = {}
+    for row in estimators():
+        for key, axis in ("gamma", "memory"), ("gamma", "smallest size"), ("B", "smallest size"):
+            if row["over"] == axis and math.isfinite(row[key]):
+                cells.setdefault(f"estimator.{key}.{row['fault']}.{axis.replace(' ', '_')}.{row['estimator']}", []).append(row[key])
+    for name, some in cells.items():
+        yield Value(f"{name}.least", min(some), n=len(some), source="estimators.csv")
+        yield Value(f"{name}.most", max(some), n=len(some), source="estimators.csv")
 
 
 def burst_values():
     for row in read(BURSTS):
-        for key in ("stretches", "bursts", "one_line", "share_median", "share_largest", "rate_in_bursts", "rate_else", "rate_largest",
-                    "period_largest", "gamma", "gamma_else", "exponent", "exponent_else"):
+        for key in "stretches bursts rate_in_bursts rate_else rate_largest gamma gamma_else exponent exponent_else".split():
             if row[key]:
-                yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), math.nan, "", 1, "bursts.csv")
+                yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), source="bursts.csv")
+    for key in "period radius share_of_line own_period".split():
+        yield Value(f"trapped.1.{key}", number(read(TRAPPED)[0], key), source="trapped.csv")
 
 
-def trapped_values():
-    for number, row in enumerate(read(TRAPPED), 1):
-        for key in ("period", "line_of_short", "radius", "share_of_line", "links", "pressed", "softest", "softer_discs", "own_period"):
-            yield Value(f"trapped.{number}.{key}", float(row[key]), math.nan, "", 1, "trapped.csv")
-
-
-def times_at_places(run, least):
-    """Times between ruptures of at least a work at each place of a fault."""
-    of = run.events[run.events["size"] >= least]
-    starts = [[] for _ in range(run.length)]
-    for event in of:
-        for place in range(int(event["x_begin"]), int(event["x_begin"] + event["rupture_length"])):
-            starts[place % run.length].append(float(event["t_start"]))
-    return np.concatenate([np.diff(np.sort(one)) for one in starts])
-
-
-def rupture_values():
-    """Rates of ruptures in 1000 time units and 120 of the length, times between them at one place, and how their threshold decides."""
+def threshold_values():
+    """Ruptures >= 0.01 of length 120 with other thresholds."""
+    tests = [row for row in read(TESTED) if float(row["length"]) == 120]
     for fault in FAULTS:
-        for length in LENGTHS:
-            runs = runs_of(fault, length, "slips")
-            for least in SIZES[1:] if runs else ():
-                value = over(runs, lambda run: per_length(run, run.events["size"] >= least))
-                yield Value(f"ruptures.rate.{fault}.{length}.{least:g}", *value, "1/1000/120", len(runs), sources(runs))
-            for least in (2, 5, 10) if runs else ():
-                value = over(runs, lambda run: per_length(run, run.events["rupture_length"] >= least))
-                yield Value(f"ruptures.rate.{fault}.{length}.places_{least}", *value, "1/1000/120", len(runs), sources(runs))
-            if runs:
-                largest = max(float(run.events["rupture_length"].max()) for run in runs)
-                yield Value(f"ruptures.longest.{fault}.{length}", largest, math.nan, "length", len(runs), sources(runs))
-                times = [times_at_places(run, 1e-2) for run in runs]
-                for key, measure in ("mean", np.mean), ("variation", lambda x: np.std(x) / np.mean(x)), ("below_tenth",
-                                                                                                         lambda x: np.mean(x < np.mean(x) / 10)):
-                    yield Value(f"place.{key}.{fault}.{length}", *mean_and_error([measure(one) for one in times]), "time" if key == "mean" else "",
-                                len(runs), sources(runs))
-    tests = read(TESTED)
-    for fault in FAULTS:
-        of = [row for row in tests if row["fault"] == fault and float(row["length"]) == 120]
-        for slipping, merged in sorted({(row["slipping"], row["merged"]) for row in of}):
-            some = [row for row in of if (row["slipping"], row["merged"]) == (slipping, merged)]
-            for key in ("share", *(f"{name}_{least:g}" for name in ("rate", "share") for least in SIZES[1:])):
-                yield Value(f"ruptures.test.{fault}.{float(slipping):g}.{float(merged):g}.{key}",
-                            *mean_of(some, key)[:2], "", len(some), "ruptures_tests.csv")
+        for slipping, merged in TESTS:
+            of = [row for row in tests if (row["fault"], float(row["slipping"]), float(row["merged"])) == (fault, slipping, merged)]
+            value, error, n = mean_of(of, "rate_0.01")
+            yield Value(f"ruptures.test.{fault}.{slipping}.{merged}.rate_0.01", value, error, "", n, "ruptures_tests.csv")
 
 
 def variant_values():
@@ -844,48 +759,24 @@ def variant_values():
         yield Value(f"variant.drops.wide.{fault}", value / full, value / full * math.hypot(error / value, of_full / full), "", 1, "variants.csv")
 
 
-def budget_values():
-    """Work of friction in 1000 time units over what the plates put in, if all shear stress is friction's, and the share of drops >= 0.1."""
-    for fault in FAULTS:
-        for length in LENGTHS:
-            runs = runs_of(fault, length, column="friction_work")
-
-            def budget(run):
-                total = run.events["friction_total"]
-                return float(total[-1] - total[0]) / run.time, math.nan
-
-            def large(run):
-                of = (run.events["size"] >= 0.1) & (excess_of(run.path) > slip.SLIP)
-                return float(np.sum(run.events["friction_work"][of])) / budget(run)[0] / run.time, math.nan
-
-            def size(run):
-                of = (run.events["size"] >= 0.1) & (excess_of(run.path) > slip.SLIP)
-                return float(np.mean(run.events["friction_work"][of])), math.nan
-
-            for key, measure in (("work", budget), ("share", large), ("mean", size)) if runs else ():
-                yield Value(f"budget.{key}.{fault}.{length}", *over(runs, measure), "energy/1000" if key == "work" else "", len(runs), sources(runs))
+def work(run):
+    """Work of friction in 1000 time units."""
+    total = run.events["friction_total"]
+    return float(total[-1] - total[0]) / run.time
 
 
-def share_values():
-    """Share of the drops of 0.001 to 0.1 that are slip, beyond two nulls: what random stretches of the run would show (where it was measured), and as many
-    as have an excess below -0.5, since waves take as often as they give."""
-    for fault in FAULTS:
-        for length in LENGTHS:
-            runs = runs_of(fault, length, column="friction_work")
+def share_of_large(run):
+    """The share of slips >= 0.1 in it."""
+    of = (run.events["size"] >= 0.1) & (excess_of(run.path) > slip.SLIP)
+    return float(np.sum(run.events["friction_work"][of])) / work(run) / run.time
 
-            def share(run, null):
-                of = (run.events["size"] >= 1e-3) & (run.events["size"] < 0.1)
-                excess = excess_of(run.path)[of]
-                if null == "random":
-                    return slip.slip_share(excess, run.events["chance"][of]), math.nan
-                return np.mean(excess > slip.SLIP) - np.mean(excess < -slip.SLIP), math.nan
 
-            for null, some in ("random", [run for run in runs if "chance" in run.events.dtype.names]), ("mirror", runs):
-                if some:
-                    found = [float(share(run, null)[0]) for run in some]
-                    yield Value(f"share.{null}.{fault}.{length}", *mean_and_error(found), "", len(some), sources(some))
-                    yield Value(f"share.{null}.{fault}.{length}.least", min(found), math.nan, "", len(some), sources(some))
-                    yield Value(f"share.{null}.{fault}.{length}.most", max(found), math.nan, "", len(some), sources(some))
+def slip_of_middle(run, null=None):
+    """Share of the drops of 0.001 to 0.1 that are slip, beyond what a null has: random stretches of the run, or, without it, as many as
+    have an excess below -0.5, since waves take as often as they give."""
+    of = (run.events["size"] >= 1e-3) & (run.events["size"] < 0.1)
+    excess = excess_of(run.path)[of]
+    return slip.slip_share(excess, run.events[null][of]) if null else np.mean(excess > slip.SLIP) - np.mean(excess < -slip.SLIP)
 
 
 def spectrum_values():
@@ -918,21 +809,11 @@ def after_crossings(run):
     return share / near(times, ends[large]), share / np.mean([near(starts, ends[rng.permutation(large)]) for _ in range(20)])
 
 
-def crossing_values():
-    for fault in FAULTS:
-        for length in LENGTHS:
-            runs = runs_of(fault, length)
-            found = [after_crossings(run) for run in runs]
-            for name, some in zip(("outside", "shuffled"), zip(*found)):
-                yield Value(f"crossing.{name}.{fault}.{length}", *mean_and_error([float(x) for x in some]), "", len(runs), sources(runs))
-
-
 def cut_values(postproc):
     """Gamma of times above 2.5 memories of the picker."""
     for fault in FAULTS:
         for length in (120, 945):
-            runs = runs_of(fault, length)
-            rows = []
+            runs, rows = runs_of(fault, length), []
             for run in runs:
                 mean = 1000 / drops(run, 1e-4)[0]
                 rows += summary.rows_of(postproc, [run.path], ["1e-4"], begin=LOADING, shortest=2.5 * memory_of(run.events.header) / mean)
@@ -940,10 +821,15 @@ def cut_values(postproc):
 
 
 def all_values(postproc):
-    rates = list(rate_values())
     return [
-        *rates, *ratio_values(rates), *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *trapped_values(),
-        *rupture_values(), *variant_values(), *budget_values(), *share_values(), *spectrum_values(), *crossing_values(), *cut_values(postproc)
+        *values_of("rate.drops.{}.0.0001", lambda run: drops(run, 1e-4), "1/1000"),
+        *values_of("rate.slips.{}.0.1", lambda run: slips(run, 0.1), "1/1000", **SLIPS),
+        *(value for least in SIZES[1:] for value in values_of(f"ruptures.rate.{{}}.{least:g}", ruptures_of(least), "1/1000/120", **RUPTURES)),
+        *values_of("budget.work.{}", work, "energy/1000", **SLIPS), *values_of("budget.share.{}", share_of_large, **SLIPS),
+        *values_of("share.mirror.{}", slip_of_middle, **SLIPS),
+        *values_of("share.random.{}", lambda run: slip_of_middle(run, "chance"), column="chance"),
+        *values_of("crossing.shuffled.{}", lambda run: after_crossings(run)[1]), *ratio_values(), *fit_values(postproc), *velocity_values(),
+        *estimator_values(), *burst_values(), *threshold_values(), *variant_values(), *spectrum_values(), *cut_values(postproc)
     ]
 
 

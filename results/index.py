@@ -10,13 +10,12 @@ FOLDER = Path(__file__).resolve().parent
 # what a key begins with, what the number is
 KEYS = (
     ("rate ratio", "rates of drops and of slips, and how much the faults differ in them"),
-    ("exponent gamma B mean_time run within",
-     "exponent of sizes, gamma, B and mean time of drops, by likelihood; how many runs are within the tolerances"),
+    ("exponent gamma B run within", "exponent of sizes, gamma, B and mean time of drops, by likelihood; how many runs are within the tolerances"),
     ("estimator cut", "gamma and B with other smallest sizes, memories, smallest times and estimators"),
     ("velocity", "rates at half the velocity of the plates"),
     ("share", "share of drops that are slip, with two nulls"),
     ("budget", "work of friction, and the share of large slips in it"),
-    ("ruptures place variant", "ruptures by the work of friction, times between them at one place; wider blocks"),
+    ("ruptures variant", "ruptures by the work of friction; wider blocks"),
     ("burst trapped", "stretches in which single discs ring, and these discs"),
     ("crossing spectrum", "drops after a large one; series that have the spectrum only"),
     ("scaling", "how the largest drops and ruptures go with the length"),
@@ -38,8 +37,7 @@ FILES = (
     ("campaign/*", "the absorbing fault at all lengths, drops and ruptures", "publish.py", "campaign"),
     ("validation/*", "wider blocks", "publish.py", "validation, paper"),
     ("damping.*", "energies of the three faults", "slip_or_exchange.py figure", "article, extra=fault_energy"),
-    ("calibration.csv calibration.statements.csv calibration/*", "values that were tried, and what they give", "calibrate.py",
-     "calibration, slider-calibration"),
+    ("calibration.statements.csv calibration/*", "values that were tried, and what they give", "calibrate.py", "calibration, slider-calibration"),
     ("packing/* packing.png", "places of the discs at the fault, with seeds on a grid and at random", "packing.gp", ""),
     ("catalogues/* fig13_slider_sizes.*", "block-sliders", "publish.py, postproc histograms", "campaign"),
     ("walk/* walk.*", "stations between the block-slider and the fault", "walk.py", "walk"),
@@ -54,7 +52,7 @@ FILES = (
      "rupture_benchmark.py", ""),
     ("rupture_3d*", "TPV5", "rupture_3d.py", "ruptures"),
     ("speed.* speed/*", "timings", "targets bench-lsm, bench-slider", ""),
-    ("explore.png fault_event.png fig8_to_11_series.* rupture_event.* tutorial_*", "pictures of short runs", "pictures.sh run", ""),
+    ("explore.png fault_event.png rupture_event.* tutorial_*", "pictures of short runs", "pictures.sh run", ""),
 )
 
 

@@ -37,7 +37,6 @@ for part; do
       cd "$new"
       read -r begin end time steps <<<"$(awk -F, '/^# dt = / { split($0, dt, " = ") } /^[0-9]/ && $6 > most { most = $6; t = $2; a = $4; b = $5 }
         END { print a, b, t, int(b - 1200 / dt[2]) }' first.catalogue.csv)"
-      "$postproc" series first.pe.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) --title "Fault of length 120" -o series
       "$postproc" histograms first.catalogue.csv --threshold 1e-4 --guide=-1.07:1e-4:0.1 -o sizes
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 300000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
       "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --threshold 1e-4 --label "mus 0.6" --label "mus 0.8" -o compare
@@ -50,7 +49,6 @@ for part; do
         -var from "$look" -var to "$look" -var every 1000 </dev/null >out
       cd - >/dev/null
       gnuplot -e "frame = '$(echo "$new"/look.*.png)'" fault_event.gp
-      for kind in png svg; do cp "$new/series.$kind" "fig8_to_11_series.$kind"; done
       cp "$new/first.largest.png" tutorial_series.png
       cp "$new/sizes.png" tutorial_sizes.png
       cp "$new/compare.png" tutorial_compare.png

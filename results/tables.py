@@ -11,9 +11,7 @@ A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page
 of sentences before <!--n KEY-->, see values.py. Statistics are those of postproc; here are means over packings. A study whose data are
 not in this folder has a line in place of its table.
 """
-import cmath
 import difflib
-import functools
 import math
 import re
 import statistics
@@ -61,34 +59,21 @@ def faults(kind="catalogue", folder=CAMPAIGN):
     return dict(sorted(groups.items()))
 
 
-@functools.cache
-def loaded(path):
-    """Time from which a catalogue counts: wider blocks are loaded later."""
-    return LOADING * float(lsm.read_catalogue(path).header["width"]) / 30
-
-
 # ---- cells
-
-
-def table(head, rows):
-    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(row) + " |" for row in rows])
 
 
 def turned(head, rows):
     """The same table with a column for each of these rows."""
-    lines = list(zip(head, *rows))
-    return table(lines[0], lines[1:])
+    head, *rows = zip(head, *rows)
+    return head, rows
 
 
 def shown(value, error=math.nan):
     """A value as 0.667 ± 0.021. The error has one digit, or two if it begins with less than 3.5; without an error there are three."""
     if value is None or not math.isfinite(value):
         return "-"
-    if not error > 0:
-        return f"{value:.{min(4, max(0, 2 - math.floor(math.log10(abs(value)))))}f}" if value else "0"
-    last = math.floor(math.log10(error))
-    places = max(0, -last + (1 if error / 10**last < 3.5 else 0))
-    return f"{value:.{places}f} ± {error:.{places}f}"
+    places = max(0, values.digits(value, error))
+    return f"{value:.{places}f} ± {error:.{places}f}" if error > 0 else f"{value:.{min(4, places)}f}"
 
 
 def spread(values, error=math.nan):
@@ -101,94 +86,118 @@ def spread(values, error=math.nan):
 
 def of(row, key):
     """A number with its error, which is in another column of the row."""
-    names = (f"{key}_error", f"{key}_sd", key.replace("exponent_", "error_"), key.replace("gamma_", "gamma_error_"))
-    return shown(number(row, key), next((number(row, name) for name in names if name != key and name in row), math.nan))
+    return shown(number(row, key), number(row, f"{key}_error"))
+
+
+def rms(numbers):
+    return math.sqrt(statistics.fmean(x * x for x in numbers))
+
+
+# ---- tables, as head and rows: of the rows of a file, and of numbers of values.csv
+
+
+def rows_table(rows, columns):
+    """columns: {head: function of a row, or the key of a number}"""
+    rows = read(FOLDER / rows) if isinstance(rows, str) else rows
+    return list(columns), [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows]
+
+
+def keyed_table(head, rows, columns):
+    """A row for each of these texts, which are put into the keys; those without any number are left out. columns: {head: "KEY FORM", as in pages}"""
+    found = values.read()
+
+    def cell(row, key, form):
+        one = found.get(key.format(row))
+        return values.text_of(one.value, one.error, form) if one else "-"
+
+    cells = {row: [cell(row, *column.split()) for column in columns.values()] for row in rows}
+    return [head, *columns], [[row.replace(".", ", ", 1), *some] for row, some in cells.items() if set(some) != {"-"}]
+
+
+def text_in(key):
+    return lambda row: row[key]
 
 
 # ---- the fault
 
 
-def tolerance_of(statement):
-    return f"a factor of {math.exp(statement.tolerance):.3g}" if statement.log else f"{statement.tolerance:.2g}"
-
-
-def agreement_table():
-    """The first numbers of the README."""
-    columns = {"drops >= 1e-4 in 1000 time units": ("rate.drops.{}.0.0001", "()"), "slips >= 0.1 (ours)": ("rate.slips.{}.0.1", "()")}
-    columns |= {"exponent": ("exponent.all.{}", "()"), "gamma": ("gamma.all.{}", "()"), "B": ("B.all.{}", "()")}
+def agreement():
     rows = [f"{fault}.{length}" for fault in article.FAULTS for length in (120, 480, 1890)]
-    head, line, *rest = keyed_table("fault, length", rows, columns).split("\n")
-    found = values.read()
-    packings = [f"{found[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)} |" for row in rows]
-    lines = [head + " packings, of which fitted |", line + "---|", f"| paper, all lengths | {article.PAPER:.0f} |  | 1.07 | 0.995 | 15.2 |  |"]
-    return "\n".join(lines + [f"{cells} {packing}" for cells, packing in zip(rest, packings)])
+    head, cells = keyed_table(
+        "fault, length", rows, {
+            "drops >= 1e-4 in 1000 time units": "rate.drops.{}.0.0001 ()", "slips >= 0.1 (ours)": "rate.slips.{}.0.1 ()",
+            "exponent": "exponent.all.{} ()", "gamma": "gamma.all.{} ()", "B": "B.all.{} ()"
+        })
+    packings = [f"{values.read()[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)}" for row in rows]
+    paper_says = ["paper, all lengths", f"{article.PAPER:.0f}", "", "1.07", "0.995", "15.2", ""]
+    return [*head, "packings, of which fitted"], [paper_says, *([*row, some] for row, some in zip(cells, packings))]
 
 
-def widths_table():
+def widths():
     """Ruptures in blocks of several widths, once they are loaded."""
     found = {}
     for folder in CAMPAIGN, VALIDATION:
         for path in (path for length, paths in faults("ruptures", folder).items() if length <= 480 for path in paths):
             header = lsm.read_catalogue(path).header
             if header["dt"] == "0.12":
-                size = analysis.events_of(path, loaded(path))["size"]
+                size = analysis.events_of(path, LOADING * float(header["width"]) / 30)["size"]  # wider blocks are loaded later
                 size = size[size >= 1e-2]
-                found.setdefault((float(header["width"]), float(header["length"])), []).append((len(size), np.sum(size**2) / np.sum(size)))
-    return table(["length, width", "packings", "ruptures >= 0.01", "characteristic size"],
-                 [[f"{length:g}, {width:g}", f"{len(some)}", *(spread([float(x) for x in one]) for one in zip(*some))]
-                  for (width, length), some in sorted(found.items())])
+                found.setdefault((float(header["length"]), float(header["width"])), []).append((len(size), np.sum(size**2) / np.sum(size)))
+    return ["length, width", "packings", "ruptures >= 0.01",
+            "characteristic size"], [[f"{length:g}, {width:g}", f"{len(some)}", *(spread([float(x) for x in one]) for one in zip(*some))]
+                                     for (length, width), some in sorted(found.items(), key=lambda one: one[0][::-1])]
 
 
 # ---- calibration
 
 
-def statements_table():
-    """Tolerances, and what points of the calibration and samples of its posterior meet."""
-    found = {row["statement"]: row for row in read(FOLDER / "calibration.statements.csv")}
-    rows = page_values.calibrated()
+def tolerance_of(statement):
+    return f"a factor of {math.exp(statement.tolerance):.3g}" if statement.log else f"{statement.tolerance:.2g}"
 
-    def shares(row, length):
+
+def statements():
+    """Tolerances, and what points of the calibration and samples of its posterior meet."""
+    found, rows = {row["statement"]: row for row in read(FOLDER / "calibration.statements.csv")}, page_values.calibrated()
+
+    def shares(one, length):
+        row = found[one.name]
         return f"{100 * number(row, f'prior_{length}'):.0f}, {100 * number(row, f'posterior_{length}'):.0f}" if row.get(f"prior_{length}") else "-"
 
-    head = ["what the paper says, or † we ask", "tolerance", f"met by, of {len(rows)} points", "% of prior, posterior at 120", "at 480"]
-    return table(head, [[
-        one.text,
-        tolerance_of(one),
-        str(sum(one.deviation(row) <= 1 for row in rows)), *(shares(found[one.name], length) for length in ("120", "480"))
-    ] for one in paper.STATEMENTS])
+    return rows_table(
+        paper.STATEMENTS, {
+            "what the paper says, or † we ask": lambda one: one.text, "tolerance": tolerance_of,
+            f"met by, of {len(rows)} points": lambda one: str(sum(one.deviation(row) <= 1 for row in rows)),
+            "% of prior, posterior at 120": lambda one: shares(one, 120), "at 480": lambda one: shares(one, 480)
+        })
 
 
-def slider_table():
+def slider():
     """Of the settings of the block-slider that were tried, the one nearest to the paper over all lengths."""
-    statements, rows = paper.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # below: loading only
-    groups = grouped(rows, lambda row: tuple(row[key] for key in paper.SLIDER_KEYS))
-    key, rows = min(groups.items(), key=lambda one: sum(paper.distance(row, statements)**2 for row in one[1]))
+    groups = grouped((row for row in read(SLIDERS) if float(row["dt"]) >= 0.005), lambda row: tuple(row[key] for key in paper.SLIDER_KEYS))
+    key, rows = min(groups.items(), key=lambda one: sum(paper.distance(row, paper.SLIDER_STATEMENTS)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
-    met = [sum(one.deviation(row) <= 1.0 for row in rows) for one in statements]
-    head = [
-        f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})",
-        "paper (our tolerance)", "here", "agrees at"
-    ]
-    blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
-    return table(head, [blocks] +
-                 [[one.name, f"{one.text} ({tolerance_of(one)})", ", ".join(shown(one.value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
-                  for one, n in zip(statements, met)])
+    fitted = f"fitted: the nearest of {len(groups)} settings ({key[0]} scheme, {key[2]} reading, time step {key[1]}, velocity {key[5]})"
+    head, cells = rows_table(
+        paper.SLIDER_STATEMENTS, {
+            fitted: lambda one: one.name, "paper (our tolerance)": lambda one: f"{one.text} ({tolerance_of(one)})",
+            "here": lambda one: ", ".join(shown(one.value(row)) for row in rows),
+            "agrees at": lambda one: f"{sum(one.deviation(row) <= 1.0 for row in rows)} of {len(rows)} lengths"
+        })
+    return head, [["blocks", "", ", ".join(row["blocks"] for row in rows), ""], *cells]
 
 
-def slider_velocity_table():
+def slider_velocity():
     """The block-slider over the velocity of its plate, at all lengths."""
     fixed = {"scheme": "printed", "dt": "0.01", "picker": "exponential", "picker-lambda": "0.99", "warmup": "0", "smallest": "0.0001"}
-    rows = [row for row in read(SLIDERS) if all(row[key] == value for key, value in fixed.items())]
-    groups = grouped(sorted(rows, key=lambda row: (float(row["velocity"]), int(row["blocks"]))), lambda row: row["velocity"])
-
+    rows = [row for row in read(SLIDERS) if fixed.items() <= row.items()]
+    groups = grouped(sorted(rows, key=lambda row: (float(row["velocity"]), int(row["blocks"]))), text_in("velocity"))
     told = [one for one in paper.SLIDER_STATEMENTS if one.name != "large"]
-    blocks = ", ".join(row["blocks"] for row in groups["0.01"])
-    return table([f"velocity, each for {blocks} blocks", *(one.name for one in told)],
-                 [["paper", *(one.text for one in told)]] + [[velocity, *(", ".join(shown(one.value(row)) for row in rows) for one in told)]
-                                                             for velocity, rows in groups.items()])
+    head = [f"velocity, each for {', '.join(map(text_in('blocks'), groups['0.01']))} blocks", *(one.name for one in told)]
+    return head, [["paper", *(one.text for one in told)],
+                  *([velocity, *(", ".join(shown(one.value(row)) for row in rows) for one in told)] for velocity, rows in groups.items())]
 
 
-def ground_table():
+def ground():
     """Periodicity of the faces, and of the events, with seeds on a grid and at random places."""
     places, now = {}, faults()
     for row in read(FOLDER / "packing/faces.csv.xz"):
@@ -196,195 +205,160 @@ def ground_table():
 
     def factors(seeds, length):
         k = 2 * math.pi * 2 * math.floor(float(length) / 2) / float(length)  # at half the spacing of the grid, rounded to fit in
-        return ", ".join(f"{abs(sum(cmath.exp(1j * k * x) for x in face))**2 / len(face):.1f}" for face in places[seeds, length].values())
+        return ", ".join(f"{abs(np.exp(1j * k * np.array(face)).sum())**2 / len(face):.1f}" for face in places[seeds, length].values())
 
     def z(paths):
         return ", ".join(f"{periods.rayleigh_z(*periods.slips_of(path, LOADING, 1e-2), 1.0):.1f}" for path in paths)
 
-    columns = {
-        "length": lambda row: row["length"],
-        "structure factor of the faces, grid": lambda row: factors("grid", row["length"]),
-        "random places": lambda row: factors("random", row["length"]),
-        "Z at a slip of 1, grid": lambda row: row["z"],
-        "Z, random places": lambda row: z(now.get(int(row["length"]), [])),
-    }
-    return study_table("packing/grid.csv", columns, across=True)
+    return turned(*rows_table(
+        "packing/grid.csv", {
+            "length": text_in("length"), "structure factor of the faces, grid": lambda row: factors("grid", row["length"]),
+            "random places": lambda row: factors("random", row["length"]), "Z at a slip of 1, grid": text_in(
+                "z"), "Z, random places": lambda row: z(now.get(int(row["length"]), []))
+        }))
 
 
-def rupture_packing_table():
+def rupture_packing():
     """TPV3 in the random packing compared with the boundary integral method, from the stations of all packings."""
-
-    def rms(numbers):
-        return math.sqrt(statistics.fmean(x * x for x in numbers))
-
-    spacings, out, keys = {}, [], ("x", "arrival", "reference_arrival", "end_slip", "reference_end_slip")
+    groups = {}
     for row in read(FOLDER / "rupture_packing-stations.csv"):
         _, spacing, seed = row["run"].split(".")  # p.SPACING.SEED
-        spacings.setdefault(int(spacing), {}).setdefault(seed, {})[float(row["x"])] = {key: float(row[key]) for key in keys}
-    for spacing, packed in sorted(spacings.items(), reverse=True):
-        every = [at for stations in packed.values() for at in stations.values()]
-        late = [rms(at["arrival"] - at["reference_arrival"] for at in stations.values()) for stations in packed.values()]
-        scattered = math.sqrt(
-            statistics.fmean(statistics.variance(stations[x]["arrival"] for stations in packed.values()) for x in next(iter(packed.values()))))
-        slip = [100 * (at["end_slip"] / at["reference_end_slip"] - 1) for at in every if abs(at["x"]) <= 12000]
-        fast = sum(9000 / (stations[side * 12000]["arrival"] - stations[side * 3000]["arrival"]) > 3464 for stations in packed.values()
-                   for side in (-1, 1))
-        out.append([
-            f"{spacing} m ({1.374 * spacing:.0f} m)",
-            str(len(packed)), " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late), max(late)))), f"{scattered:.2f}",
-            f"{fast} of {2 * len(packed)}", f"{rms(slip):.1f}; {statistics.fmean(slip):.1f}"
-        ])
-    return table([
-        "spacing (largest radius)", "packings", "arrival, rms of each (s)", "scatter between packings (s)",
-        "fronts faster than S-waves from 3 to 12 km", "slip, rms; mean (%)"
-    ], out)
+        groups.setdefault(int(spacing), {}).setdefault(seed, {})[float(row["x"])] = {key: float(row[key]) for key in list(row)[3:]}
+
+    def late(packed):
+        return [rms(at["arrival"] - at["reference_arrival"] for at in stations.values()) for stations in packed]
+
+    def scatter(packed):
+        return math.sqrt(statistics.fmean(statistics.variance(stations[x]["arrival"] for stations in packed) for x in packed[0]))
+
+    def fast(packed):
+        times = [stations[side * 12000]["arrival"] - stations[side * 3000]["arrival"] for stations in packed for side in (-1, 1)]
+        return f"{sum(9000 / time > 3464 for time in times)} of {len(times)}"
+
+    def slips(packed):
+        slip = [100 * (at["end_slip"] / at["reference_end_slip"] - 1) for stations in packed for x, at in stations.items() if abs(x) <= 12000]
+        return f"{rms(slip):.1f}; {statistics.fmean(slip):.1f}"
+
+    return rows_table([(spacing, list(packed.values())) for spacing, packed in sorted(groups.items(), reverse=True)], {
+        "spacing (largest radius)": lambda one: f"{one[0]} m ({1.374 * one[0]:.0f} m)", "packings": lambda one: str(len(one[1])),
+        "arrival, rms of each (s)": lambda one: " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late(one[1])), max(late(one[1]))))),
+        "scatter between packings (s)": lambda one: f"{scatter(one[1]):.2f}",
+        "fronts faster than S-waves from 3 to 12 km": lambda one: fast(one[1]), "slip, rms; mean (%)": lambda one: slips(one[1])
+    })  # yapf: disable
 
 
-# ---- the article: from values.csv
+# ---- the article
 
 
-def keyed_table(head, rows, columns):
-    """A row for each of these texts, made of the keys that `columns` give for it; those without any number are left out. columns: {head: (key, form)}"""
-    found = values.read()
-
-    def cell(key, form):
-        return values.text_of(found[key].value, found[key].error, form) if key in found else "-"
-
-    cells = {row: [cell(key.format(row), form) for key, form in columns.values()] for row in rows}
-    return table([head, *columns], [[row.replace(".", ", ", 1), *some] for row, some in cells.items() if set(some) != {"-"}])
-
-
-def default_fault_table():
+def default_fault():
     """The default fault at packings to which nothing was fitted."""
     rows = sorted((key.removeprefix("run.exponent.leaky.") for key in values.read() if key.startswith("run.exponent.leaky.")),
                   key=lambda row: [int(number) for number in row.split(".")])
-    columns = {key if key != "mean_time" else "one drop in": (f"run.{key}.leaky.{{}}", "()") for key in ("exponent", "gamma", "B", "mean_time")}
-    return keyed_table("length, packing", rows, columns)
+    names = {"exponent": "exponent", "gamma": "gamma", "B": "B", "one drop in": "mean_time"}
+    return keyed_table("length, packing", rows, {name: f"run.{key}.leaky.{{}} ()" for name, key in names.items()})
 
 
-def threshold_table():
-    """Ruptures >= 0.01 with other thresholds, at length 120."""
-    columns = {
-        f"{slipping} plate velocities, interval {0.6 * merged:g}": (f"ruptures.test.{{}}.{slipping}.{merged}.rate_0.01", "()")
-        for slipping, merged in article.TESTS
-    }
-    return keyed_table("fault", article.FAULTS, columns)
-
-
-def variants_table():
+def variants():
     """Length 120 with other time steps and widths."""
-    rows, columns = sorted(read(article.VARIANTS), key=lambda row: article.FAULTS.index(row["fault"])), {"": lambda row: row["fault"]}
-    columns |= {"packing": lambda row: row["packing"], "time step": lambda row: row["dt"], "width": lambda row: row["width"]}
-    names = {"drops": "drops >= 1e-4", "slips": "slips >= 0.1", "ruptures": "ruptures >= 0.01", "exponent": "exponent", "gamma": "gamma", "B": "B"}
-    for key, name in names.items():
-        columns[name] = lambda row, key=key: values.text_of(float(row[key]), float(row[f"{key}_error"] or "nan"), "()")
-    return study_table("", columns, rows)
+    names = {"drops >= 1e-4": "drops", "slips >= 0.1": "slips", "ruptures >= 0.01": "ruptures", "exponent": "exponent", "gamma": "gamma", "B": "B"}
+    columns = {"": text_in("fault"), "packing": text_in("packing"), "time step": text_in("dt"), "width": text_in("width")}
+    columns |= {name: lambda row, key=key: values.text_of(float(row[key]), number(row, f"{key}_error"), "()") for name, key in names.items()}
+    return rows_table(sorted(read(article.VARIANTS), key=lambda row: article.FAULTS.index(row["fault"])), columns)
 
 
-def beside_table():
-    """The three faults beside each other, at the shortest length."""
-    columns = {"drops >= 1e-4": ("rate.drops.{}.120.0.0001", "()"), "slips >= 0.1 †": ("rate.slips.{}.120.0.1", "()")}
-    columns |= {f"ruptures >= {size} †": (f"ruptures.rate.{{}}.120.{size}", "()") for size in ("0.001", "0.01", "0.1")}
-    columns |= {"work of friction": ("budget.work.{}.120", "()"), "of it in slips >= 0.1, %": ("budget.share.{}.120", "%()")}
-    return keyed_table("length 120, in 1000 time units", article.FAULTS, columns)
-
-
-def three_faults_table():
+def three_faults():
     """Values in which the faults differ."""
-    found = {fault: defaults(fault) for fault in article.FAULTS}
-    names = [one for one in declared() if len({values[one.name] for values in found.values()}) > 1 and one.name not in ("steps", "preset")]
     meaning = {"dt": "time step", "stress": "normal stress", "kt": "tangential stiffness of contacts", "impedance": "impedance of the plates"}
     meaning |= {"viscosity": "viscosity", "retardation": "retardation time of links", "memory": "memory of the picker"}
-    return table(["value", *article.FAULTS],
-                 [[f"{meaning.get(one.name, one.name)} (`{one.name}`)", *(f"{float(values[one.name]):g}" for values in found.values())]
-                  for one in names])
+    found = [defaults(fault) for fault in article.FAULTS]
+    names = [one.name for one in declared() if len({values[one.name] for values in found}) > 1 and one.name not in ("steps", "preset")]
+    return ["value",
+            *article.FAULTS], [[f"{meaning.get(name, name)} (`{name}`)", *(f"{float(values[name]):g}" for values in found)] for name in names]
 
 
-def bursts_table():
-    """Stretches in which single discs ring."""
-    rows = [f"{row['fault']}.{row['packing']}" for row in read(article.BURSTS)]
-    columns = {"stretches with bursts": ("burst.bursts.{}", ".0f"), "of": ("burst.stretches.{}", ".0f")}
-    columns |= {"drops in them": ("burst.rate_in_bursts.{}", ".0f"), "elsewhere": ("burst.rate_else.{}", ".0f")}
-    columns |= {"gamma": ("burst.gamma.{}", ".2f"), "gamma without bursts": ("burst.gamma_else.{}", ".2f")}
-    columns |= {"exponent": ("burst.exponent.{}", ".2f"), "exponent without bursts": ("burst.exponent_else.{}", ".2f")}
-    return keyed_table("fault, packing", rows, columns)
+# ---- studies
 
 
-# ---- tables of studies
-
-
-def study_table(file, columns, rows=None, across=False):
-    """A table of a study. columns: {head: function of a row, or the key of a number}; across: a column for each row."""
-    rows = rows if rows is not None else read(FOLDER / file)
-    return (turned if across else table)(list(columns),
-                                         [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows])
-
-
-def slow_driving_table():
+def slow_driving():
 
     def per(row, *keys):
         return ", ".join(f"{18 * number(row, key) / number(row, 'displacement'):.0f}" for key in keys)
 
-    columns = {
+    return turned(*rows_table([row for row in read(FOLDER / "slow-driving.csv") if row["fast"] in ("", "2.5e-4")], {
         "velocity": lambda row: row["velocity"] + (", leaps" if row["fast"] else ""),
         "events >= 1e-3, 1e-2, 0.1": lambda row: per(row, "events_3", "events_2", "events_1"), "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2",
         "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
         "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
-        "large events matched, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
-        if row["same"] else "", "steps per large event": "steps_per_large"
-    }
-    rows = [row for row in read(FOLDER / "slow-driving.csv") if row["fast"] in ("", "2.5e-4")]
-    return study_table("", columns, rows, across=True)
+        "large events matched, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}" if row["same"] else "",
+        "steps per large event": "steps_per_large"
+    }))  # yapf: disable
 
 
-def work_precision_table():
-    columns = {"time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}"}
-    columns |= {"model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}"}
-    return study_table("accuracy_catalogues.csv",
-                       columns | {"events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"})
-
-
-def named(label, size):
-    return f"{label}, M >= {math.log10(float(size)) / 1.5:.3g}" if label == "Southern California" else f"{label}, >= {float(size):g}"
-
-
-def one_or_both(row, key, two):
-    """A number, or those of two catalogues: their error is half of their difference."""
-    value, half = number(row, key), number(row, f"{key}_error")
-    return spread([value - half, value + half]) if two and half > 0 else of(row, key)
-
-
-def ranking_table():
+def ranking():
     """Earthquakes, and for each model the smallest size with which it is nearest to them."""
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
-        rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
+        rows.setdefault((row["label"], row["threshold"] if row["label"] == nature.NATURE else ""), row)
 
-    columns = {"": lambda row: named(row["label"], row["threshold"]), "catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
-    keys = {"distance": "distance", "gamma": "gamma", "after large events": "after", "b-value": "b"}
-    columns |= {name: lambda row, key=key: one_or_both(row, key, row["catalogues"] == "2") for name, key in keys.items()}
-    return study_table("", columns, rows.values())
+    def named(row):
+        size = float(row["threshold"])
+        return f"{row['label']}, " + (f"M >= {math.log10(size) / 1.5:.3g}" if row["label"] == nature.NATURE else f">= {size:g}")
+
+    def one_or_both(key):
+        """A number, or those of two catalogues: their error is half of their difference."""
+
+        def cell(row):
+            value, half = number(row, key), number(row, f"{key}_error")
+            return spread([value - half, value + half]) if row["catalogues"] == "2" and half > 0 else of(row, key)
+
+        return cell
+
+    return rows_table(rows.values(), {
+        "": named, "catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}", "distance": one_or_both("distance"),
+        "gamma": one_or_both("gamma"), "after large events": one_or_both("after"), "b-value": one_or_both("b")
+    })  # yapf: disable
 
 
-def laws_table():
+def laws():
     """Each law over its packings."""
-    groups = grouped(read(FOLDER / "laws.csv"), lambda row: row["run"].rsplit("_", 1)[0])
 
     def all_of(*keys):
         return lambda rows: ", ".join(spread([number(row, key) for row in rows]) for key in keys)
 
-    keys = {"exponent": ["exponent"], "gamma": ["gamma"], "distance": ["distance"]}
-    keys |= {
-        f"events before, after a main shock, {text}": [f"before_{part}", f"after_{part}"]
-        for text, part in (("to 300", "near"), ("300 to 3e4", "far"))
-    }
-    columns = {"law": lambda rows: rows[0]["run"].rsplit("_", 1)[0]} | {head: all_of(*some) for head, some in keys.items()}
-    return study_table("", columns, groups.values())
+    return rows_table(grouped(read(FOLDER / "laws.csv"), lambda row: row["run"].rsplit("_", 1)[0]).values(), {
+        "law": lambda rows: rows[0]["run"].rsplit("_", 1)[0], "exponent": all_of("exponent"), "gamma": all_of("gamma"), "distance": all_of("distance"),
+        "events before, after a main shock, to 300": all_of("before_near", "after_near"),
+        "events before, after a main shock, 300 to 3e4": all_of("before_far", "after_far")
+    })  # yapf: disable
 
 
-TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
-TABLES |= {name: lambda made=made: table(*made()) for name, made in (speed_tables.TABLES | validation_tables.TABLES).items()}
-TABLES |= {"walk": lambda: table(*walk.table(shown)), "index": lambda: table(*index.keys_table()), "files": lambda: table(*index.files_table())}
+TABLES = speed_tables.TABLES | validation_tables.TABLES | {
+    "agreement": agreement, "widths": widths, "statements": statements, "slider": slider, "slider-velocity": slider_velocity, "ground": ground,
+    "rupture-packing": rupture_packing, "default-fault": default_fault, "variants": variants, "three-faults": three_faults,
+    "slow-driving": slow_driving, "ranking": ranking, "laws": laws,
+    "threshold": lambda: keyed_table("fault", article.FAULTS, {
+        f"{slipping} plate velocities, interval {0.6 * merged:g}": f"ruptures.test.{{}}.{slipping}.{merged}.rate_0.01 ()"
+        for slipping, merged in article.TESTS}),
+    "beside": lambda: keyed_table("length 120, in 1000 time units", article.FAULTS, {
+        "drops >= 1e-4": "rate.drops.{}.120.0.0001 ()", "slips >= 0.1 †": "rate.slips.{}.120.0.1 ()",
+        **{f"ruptures >= {size} †": f"ruptures.rate.{{}}.120.{size} ()" for size in ("0.001", "0.01", "0.1")},
+        "work of friction": "budget.work.{}.120 ()", "of it in slips >= 0.1, %": "budget.share.{}.120 %()"}),
+    "bursts": lambda: keyed_table("fault, packing", [f"{row['fault']}.{row['packing']}" for row in read(article.BURSTS)], {
+        "stretches with bursts": "burst.bursts.{} .0f", "of": "burst.stretches.{} .0f", "drops in them": "burst.rate_in_bursts.{} .0f",
+        "elsewhere": "burst.rate_else.{} .0f", "gamma": "burst.gamma.{} .2f", "gamma without bursts": "burst.gamma_else.{} .2f",
+        "exponent": "burst.exponent.{} .2f", "exponent without bursts": "burst.exponent_else.{} .2f"}),
+    "work-precision": lambda: rows_table("accuracy_catalogues.csv", {
+        "time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}",
+        "model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}",
+        "events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}),
+    "walk": lambda: walk.table(shown), "index": index.keys_table, "files": index.files_table,
+}  # yapf: disable
+
+
+def text_of_table(head, rows):
+    lines = ["| " + " | ".join(row) + " |" for row in (head, *rows)]
+    return "\n".join([lines[0], "|---" * len(head) + "|", *lines[1:]])
+
 
 NEW_FORM = ("article", "validation", "beyond", "methods", "speed")
 
@@ -400,7 +374,7 @@ def check(write):
             if match[1] not in TABLES:
                 sys.exit(f"{page.name}: table {match[1]}, expected one of {', '.join(TABLES)}")
             try:
-                made = TABLES[match[1]]()
+                made = text_of_table(*TABLES[match[1]]())
             except FileNotFoundError:
                 made = "Not measured with this model yet."
             return f"<!-- table {match[1]} -->\n\n{made}\n\n<!-- end -->"

@@ -7,7 +7,7 @@ calibrate.py propose OUT.csv LENGTH N [POINTS.csv [NAME,...]]   adds N points to
                                              with names of statements, all from what these make likely, whether printed or not
 calibrate.py collect BIN POINTS.csv FOLDER...   numbers of runs of a study, one row for each run and memory of the picker; rows of other runs
                                              that the file has stay
-calibrate.py posterior POINTS.csv OUT        samples of the posterior, OUT.csv, and what they predict, OUT.statements.csv
+calibrate.py posterior POINTS.csv OUT.csv    what samples of prior and posterior predict of each statement
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up; rows of other
                                              runs that the file has stay
 
@@ -303,35 +303,12 @@ def propose(output, length, count, points=None, names=None):
 KEPT = 500  # samples of the posterior
 
 
-def posterior(path, base):
+def posterior(path, out):
     import numpy as np
-    rows = completed(path)
-    cube, memory, words, found, log, surrogate = sampled(rows, 1, count=4 * SAMPLES)
+    *_, found, log, surrogate = sampled(completed(path), 1, count=4 * SAMPLES)
     weight = np.exp(log - log.max())
     print(f"effective samples: {weight.sum()**2 / (weight**2).sum():.0f} of {len(weight)}", file=sys.stderr)
-    weight /= weight.sum()
-    kept = np.random.default_rng(1).choice(len(weight), KEPT, p=weight)
-    out = []
-    for n in kept:
-        predicted = {f"{one.name}_{length}": found[length][one.name][0][n] for length in found for one in STATEMENTS if one.name in found[length]}
-        predicted = {key: math.exp(value) if STATEMENTS_BY_NAME[key.split("_")[0]].log else value for key, value in predicted.items()}
-        out.append({
-            **{key: words[n].get(key, "")
-               for key in (*UNPRINTED_KEYS,)}, "memory": f"{memory[n]:.3g}", **{key: f"{value:.4g}"
-                                                                                for key, value in predicted.items()}
-        })
-    stress = np.array([float(one["stress"]) for one in words])
-
-    def middle(log):
-        order, weight = np.argsort(stress), np.exp(log - log.max())
-        return f"{stress[order][np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())]:.3g}"
-
-    medians = ", ".join(f"at {length} {middle(likelihood(predicted, printed(surrogate.statements)))}" for length, predicted in found.items())
-    write_table(f"{base}.csv", [
-        f"{KEPT} samples of the posterior, and the numbers that the surrogate predicts at lengths 120 and 480."
-        f" Median stress if one length alone is asked for, and no P-wave speed: {medians}"
-    ], out)
-    lines = []
+    kept, lines = np.random.default_rng(1).choice(len(weight), KEPT, p=weight / weight.sum()), []
     for one in STATEMENTS:
         line = {"statement": one.name}
         for length, predicted in found.items():
@@ -342,15 +319,11 @@ def posterior(path, base):
         if one.name in surrogate.left_out:
             line |= {"left_out": f"{surrogate.left_out[one.name][0]:.3g}", "spread": f"{surrogate.left_out[one.name][1]:.3g}"}
         lines.append(line)
-    write_table(f"{base}.statements.csv", [
+    write_table(out, [
         "Shares of prior and posterior that are predicted to; left_out:"
         " error of the surrogate at points that it was not given, of the number or its logarithm, and their standard deviation"
     ], lines)
 
-
-UNPRINTED_KEYS = tuple(
-    dict.fromkeys([key for key, one in UNPRINTED.items() if isinstance(one, Value)] +
-                  [key for one in UNPRINTED.values() if isinstance(one, Choice) for key in one.other]))
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["propose"] and 5 <= len(sys.argv) <= 7:

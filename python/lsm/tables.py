@@ -6,7 +6,7 @@ import lzma
 import math
 from pathlib import Path
 
-__all__ = ["header_of", "memory_of", "number", "plain", "read", "rows_of", "text_of", "write_json", "write_table"]
+__all__ = ["header_of", "memory_of", "number", "plain", "read", "rows_of", "text_of", "update_table", "write_json", "write_table"]
 
 
 def header_of(lines):
@@ -51,6 +51,12 @@ def write_table(path, comments, rows):
         table = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)), lineterminator="\n")
         table.writeheader()
         table.writerows({key: text_of(value) for key, value in row.items()} for row in rows)
+
+
+def update_table(path, comments, rows, order=None):
+    """The same with rows of runs, their column `run`, in a file in which those of other runs stay. order: of all of them"""
+    there = [row for row in (read(path) if Path(path).exists() else []) if row["run"] not in {one["run"] for one in rows}]
+    write_table(path, comments, sorted(there + rows, key=order) if order else there + rows)
 
 
 def plain(value):

@@ -232,22 +232,8 @@ def picture(base):
     ]), 1450, 900)  # yapf: disable
 
 
-def speed_modes_table():
-    # 2048 blocks have the ratios of 1024, within 0.03
-    rows = {row.pop("step"): {blocks: float(ns) for blocks, ns in row.items() if blocks != "2048"} for row in read(FOLDER / "slider-modes.csv")}
-    two = rows["transforms"]
-    shown = {
-        "antiplane_tenth": "a tenth moves: velocity weakening", "coulomb_tenth": "Coulomb", "no_inertia_tenth": "velocity weakening, mass 0",
-        "coulomb": "all move: Coulomb", "antiplane": "velocity weakening", "no_inertia_coulomb": "Coulomb, mass 0",
-        "no_inertia": "velocity weakening, mass 0", "springs": "springs, velocity weakening"
-    }
-    out = [[text, *(f"{rows[name][blocks] / two[blocks]:.2f}" for blocks in two)] for name, text in shown.items()]
-    return ["CPU time of a step over that of its two transforms; blocks",
-            *two], [["two transforms, us", *(f"{1e-3 * ns:.3g}" for ns in two.values())], *out]
-
-
 TABLES = {
-    "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-machines": speed_machines_table, "speed-lengths": speed_lengths_table,
+    "speed-peers": speed_peers_table, "speed-machines": speed_machines_table, "speed-lengths": speed_lengths_table,
     "speed-changes": speed_changes_table, "speed-saved": speed_saved_table, "speed-jobs": speed_jobs_table, "speed-lattice": speed_lattice_table,
     "speed-analysis": speed_analysis_table, "speed-dashpots": speed_dashpots_table, "speed-scaling": speed_scaling_table
 }

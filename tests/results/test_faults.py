@@ -54,11 +54,6 @@ def run_of(starts, begins, lengths, length=10, span=1000.0):
     return faults.Run(Path("x"), "leaky", length, 11, lsm.Table(events, dict(time_span=str(span))))
 
 
-def test_times_at_a_place_are_of_the_ruptures_that_reach_it():
-    run = run_of([0.0, 10.0, 40.0], [8, 1, 0], [3, 2, 1])  # 8 9 0; 1 2; 0
-    assert faults.times_at_places(run, 0.01) == pytest.approx([40.0])
-
-
 def test_a_rate_has_the_error_of_its_parts():
     every = run_of(np.arange(50.0, 1000.0, 100.0), 0, 1)
     assert faults.rate_of(every, np.ones(10, bool)) == pytest.approx((10.0, 0.0))
