@@ -4,10 +4,11 @@
 
 OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults, all of sliders; with --events those of
 this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a fault has the size from
-which it is complete, if it was run with a smaller one. Files of OUT that it wrote earlier are replaced, others are not; nothing
-is written where something is refused or the disk is full, or before all is made.
+which it is complete, if it was run with a smaller one. Files of OUT that it wrote earlier of runs with the same settings are
+replaced, others are not; nothing is written where something is refused or the disk is full, or before all is made.
 """
 import argparse
+import itertools
 import json
 import lzma
 import math
@@ -16,12 +17,14 @@ import sys
 from pathlib import Path
 
 INPUTS = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(INPUTS))
+sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
+from lsm.tables import header_of  # noqa: E402
 from run import events_in, replace, replace_all  # noqa: E402
 from variables import defaults  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
+CHANGING = ("program", "steps", "min_size", "thinned", "completeness")  # of the header of one run, longer or published otherwise
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Size above which a fault's catalogue is complete, as runs state it now; the headers of earlier runs have a smaller one.
 COMPLETE = defaults()["completeness"]
@@ -74,17 +77,21 @@ def thinned(source, least):
     return "".join(kept)
 
 
-def check_replaced(path):
-    """\\raises Refused if the file exists and is no catalogue"""
+def check_replaced(path, text):
+    """\\raises Refused if the file exists and is no catalogue, or one of another run: with other values of what both headers state"""
     if not path.exists():
         return
     try:
         with lzma.open(path, "rt") as lines:
-            head = lines.readline()
+            head = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
     except (lzma.LZMAError, UnicodeDecodeError, EOFError):
-        head = ""
-    if head != MAGIC:
+        head = []
+    if head[:1] != [MAGIC]:
         raise Refused(f"{path}: exists already and holds something else, expected a new name")
+    had, new = header_of(head), header_of(itertools.takewhile(lambda line: line.startswith("#"), text.splitlines()))
+    other = [key for key in had if key in new and had[key] != new[key] and key not in CHANGING]
+    if other:
+        raise Refused(f"{path}: exists already, of another run with {other[0]} = {had[other[0]]}, not {new[other[0]]}, expected a new name")
 
 
 def publish(source, out, least=EVENTS):
@@ -122,8 +129,8 @@ def main(out, folders, events=None, ruptures=RUPTURES):
         texts[Path(out) / f"{name}.catalogue.csv.xz"] = thinned(source, least)
         if (source.parent / "fault.ruptures.csv").exists():
             texts[Path(out) / f"{name}.ruptures.csv.xz"] = thinned(source.parent / "fault.ruptures.csv", ruptures)
-    for path in texts:
-        check_replaced(path)
+    for path, text in texts.items():
+        check_replaced(path, text)
     Path(out).mkdir(parents=True, exist_ok=True)
     packed = {path: compressed(text) for path, text in texts.items()}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)

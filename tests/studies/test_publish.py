@@ -167,6 +167,19 @@ def test_sliders_are_published_whole(slider, tmp_path):
     assert 0 < len(wanted) < len(rows(source)) and rows("out/chain.catalogue.csv.xz") == wanted
 
 
+def test_a_catalogue_of_another_run_is_not_replaced(slider):
+    """A longer run of the same settings replaces its catalogue; one of another seed, whose folder has the same name, does not."""
+    for place, words in ("a", "--seed 1 --steps 1e6"), ("b", "--seed 2 --steps 1e6"), ("c", "--seed 1 --steps 2e6"):
+        Path(place, "chain").mkdir(parents=True)
+        run(slider, "--blocks 50 --warmup 0", words, f"--catalogue {place}/chain/catalogue.csv")
+    script, out = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), "out/chain.catalogue.csv.xz"
+    run(script, "out a/chain")
+    refused(script, "out b/chain", "out/chain.catalogue.csv.xz: exists already, of another run with seed = 1, not 2, expected a new name")
+    assert rows(out) == rows("a/chain/catalogue.csv")
+    run(script, "out c/chain")
+    assert rows(out) == rows("c/chain/catalogue.csv")
+
+
 @pytest.mark.parametrize("given, wanted", [("1e-4", "1e-3"), ("1e-3", "1e-3"), ("0.01", "0.01")])
 def test_catalogues_of_faults_are_complete_from_the_size_that_was_measured(runs, given, wanted):
     text = (runs[0] / "fault.catalogue.csv").read_text()
