@@ -102,7 +102,7 @@ def over(runs, measure):
 
 @functools.cache
 def excess_of(path):
-    return slip.excess_of(loaded(path))[0]
+    return slip.excess_of(loaded(path))
 
 
 def drops(run, least):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
 
-slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the work of friction and what is below
+slip_or_exchange.py events RUN OUT.csv.xz [FROM]    the events >= 1e-4 of a run from a time on (8000), with the work of friction and `chance`
 slip_or_exchange.py figure OUT RUN FROM TO...   a stretch of each run, reflecting, leaky, absorbing: OUT.png and OUT.svg
 
 RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes, FOLDER/fault in a study; figure needs extra=fault_energy as well.
@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 import lsm  # noqa: E402
 from lsm import LOADING  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
-from lsm.slip import SLIP, History, gathered, judged, jumps, recorded  # noqa: E402
+from lsm.slip import SLIP, History, judged, recorded  # noqa: E402
 from lsm.tables import text_of  # noqa: E402
 
 
@@ -27,15 +27,12 @@ def events(run, output, begin=LOADING):
     begin = float(begin)
     catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
     kept = recorded(catalogue, history, begin)
-    first = (begin - history.offset) / history.dt
     begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
-    series = lsm.read_series(f"{run}.pe.bin")
     columns = {} if "friction_work" in kept.dtype.names else {"friction_work": history.worked(begins, ends), "friction_total": history.done(ends)}
-    columns |= dict(zip(("rank", "chance"), judged(history, kept, first)[1:])) | {"together": gathered(history, kept, first)}
-    columns["jump"] = jumps(np.asarray(series["pe"]), np.asarray(series["step"]), kept)
+    columns["chance"] = judged(history, kept, (begin - history.offset) / history.dt)[1]
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
-        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; rank, chance, together, jump: results/slip_or_exchange.py\n")
+        file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; chance: results/slip_or_exchange.py\n")
         file.write(",".join([*kept.dtype.names, *columns]) + "\n")
         for event, *of in zip(kept, *columns.values()):
             file.write(",".join([*(text_of(event[name]) for name in kept.dtype.names), *(f"{number:.9g}" for number in of)]) + "\n")

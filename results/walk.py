@@ -16,21 +16,19 @@ results/nature.py uses); the fault is that of results/campaign. Each number is t
                length)
 gamma is that of `postproc intervals`.
 """
-import csv
-import itertools
 import json
 import math
-import statistics
 import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import brentq
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from lsm import LOADING  # noqa: E402
-from lsm.analysis import distance, mean_and_error, over_mean  # noqa: E402
+from lsm.analysis import distance, events_of, mean_and_error, over_mean  # noqa: E402
 from lsm.summary import rows_of  # noqa: E402
-from lsm.tables import number, read  # noqa: E402
+from lsm.tables import number, read, write_table  # noqa: E402
 from nature import earthquakes  # noqa: E402
 
 RESULTS = Path(__file__).resolve().parent
@@ -43,47 +41,39 @@ TABLE = {"gamma": "gamma_0", "distance to the fault": "to_fault", "events < 1": 
          "ruptures of 1 to 3 blocks": "local"}  # yapf: disable
 
 
-def is_fault(name):
-    return name.startswith("fault")
-
-
-def times(rows, size, begin=0.0):
-    start = sorted(number(row, "t_start") for row in rows if number(row, "size") >= size and number(row, "t_start") >= begin)
-    return [b - a for a, b in zip(start, start[1:])]
+def times(events, size):
+    return np.diff(events["t_start"][events["size"] >= size])
 
 
 def all_over_mean(samples):
     """Times of several catalogues over the mean of each."""
-    return np.concatenate([over_mean(sample) for sample in samples if sample])
+    return np.concatenate([over_mean(sample) for sample in samples if len(sample)])
 
 
 def exponent(sizes, low, high, fewest=FEWEST):
-    """Exponent of a power law between these sizes, as `postproc fit` finds it. NaN if there are too few events"""
-    logs, width = [math.log(size / low) for size in sizes if low <= size < high], math.log(high / low)
-    if len(logs) < fewest:
-        return math.nan
-    mean, below, above = statistics.fmean(logs), -30.0, 30.0
-    while above - below > 1e-9:  # the mean of the logarithms increases with b = 1 - exponent
-        b = 0.5 * (below + above)
-        expected = width / 2 if abs(b) < 1e-7 else width / -math.expm1(-b * width) - 1 / b
-        below, above = (b, above) if expected < mean else (below, b)
-    return 1 - below
+    """Exponent of a power law between these sizes, as `postproc fit` finds it. NaN if there are too few events, or all at one end"""
+    sizes = np.asarray(sizes)
+    logs, width = np.log(sizes[(sizes >= low) & (sizes < high)] / low), math.log(high / low)
+
+    def excess(b):
+        """Of the mean of the logarithms of a law, which increases with b = 1 - exponent."""
+        return (width / 2 if abs(b) < 1e-7 else width / -math.expm1(-b * width) - 1 / b) - logs.mean()
+
+    return 1 - brentq(excess, -30.0, 30.0, xtol=1e-12) if len(logs) >= fewest and excess(-30.0) < 0 < excess(30.0) else math.nan
 
 
 def exponents(paths, unit, begin):
     """{exponent_N: (exponent, error)} of the events of all paths together."""
-    sizes = [[number(row, "size") for row in read(path) if number(row, "t_start") >= begin] for path in paths]
-    found = {}
+    sizes, found = [events_of(path, begin)["size"] for path in paths], {}
     for n in DECADES:
         low, high, seeds = unit * 10.0**n, unit * 10.0**(n + 1), len(sizes)
-        parts = [exponent(itertools.chain(*sizes[:k], *sizes[k + 1:]), low, high, 5) for k in range(seeds)] if seeds > 1 else [math.nan]
-        error = math.sqrt((seeds - 1) * statistics.pvariance(parts)) if all(map(math.isfinite, parts)) else math.nan
-        found[f"exponent_{n}"] = exponent(itertools.chain(*sizes), low, high), error
+        parts = [exponent(np.concatenate(sizes[:k] + sizes[k + 1:]), low, high, 5) for k in range(seeds)] if seeds > 1 else [math.nan]
+        found[f"exponent_{n}"] = exponent(np.concatenate(sizes), low, high), math.sqrt((seeds - 1) * np.var(parts))
     return found
 
 
-def share(rows, of):
-    return sum(map(of, rows)) / len(rows) if rows else math.nan
+def share(of):
+    return np.mean(of) if len(of) else math.nan
 
 
 def gammas(postproc, paths, unit, begin):
@@ -96,27 +86,21 @@ def gammas(postproc, paths, unit, begin):
 
 def numbers(path, unit, begin, others):
     """The numbers of one catalogue, except gammas and exponents."""
-    rows = [row for row in read(path) if number(row, "t_start") >= begin]
-    t = times(rows, unit)
-    found = {"events": len(t) + 1, "small": share(rows, lambda row: number(row, "size") < unit)}
+    events = events_of(path, begin)
+    t = times(events, unit)
+    found = {"events": len(t) + 1, "small": share(events["size"] < unit)}
     if len(t) > 1:
-        mean, deviation = statistics.fmean(t), statistics.pstdev(t)
-        found |= {"burstiness": (deviation - mean) / (deviation + mean)}
+        found |= {"burstiness": (np.std(t) - np.mean(t)) / (np.std(t) + np.mean(t))}
         found |= {f"to_{name}": distance(over_mean(t), other) for name, other in others.items()}
-    if rows and "rupture_length" in rows[0] and unit == 1.0:
-        blocks = int(path.name.split("-")[-1].split("_")[0] if path.suffix == ".xz" else path.parent.name.split("-")[-1].split("_")[0])
-        found |= {"short": share(rows, lambda row: number(row, "rupture_length") <= 3)}
-        found |= {"whole": share(rows, lambda row: number(row, "rupture_length") >= blocks / 2)}
+    if "rupture_length" in events.dtype.names and unit == 1.0:
+        found |= {"short": share(events["rupture_length"] <= 3), "whole": share(events["rupture_length"] >= float(events.header["blocks"]) / 2)}
     return found
 
 
 def ruptures(path, least, begin):
-    rows = [row for row in read(path) if number(row, "t_start") >= begin and number(row, "size") >= least]
-
-    def few(size):
-        return share([row for row in rows if number(row, "size") >= size], lambda row: number(row, "rupture_length") <= 3)
-
-    return {"events": len(rows), "local": few(least), "local_10": few(10 * least)}
+    events = events_of(path, begin)
+    local, local_10 = (share(events["rupture_length"][events["size"] >= size] <= 3) for size in (least, 10 * least))
+    return {"events": np.count_nonzero(events["size"] >= least), "local": local, "local_10": local_10}
 
 
 def stations(folder):
@@ -139,13 +123,13 @@ def measured(postproc, folder):
     """{station: {"seeds": number, key: (mean, standard error)}}. \\raises FileNotFoundError if there are no catalogues"""
     places = stations(Path(folder))
     others = {
-        "slider": all_over_mean([times(read(path), 1.0, 12000) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
-        "fault": all_over_mean([times(read(path), 1e-3, LOADING) for path in places["fault"]]),
+        "slider": all_over_mean([times(events_of(path, 12000), 1.0) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
+        "fault": all_over_mean([times(events_of(path, LOADING), 1e-3) for path in places["fault"]]),
         "california": over_mean(np.diff(earthquakes()[0])),
     }
     found = {}
     for unit, begin, fault in ((1.0, 0.0, False), (1e-3, LOADING, True)):
-        names = [name for name in places if is_fault(name) == fault and not name.startswith("ruptures")]
+        names = [name for name in places if name.startswith("fault") == fault and not name.startswith("ruptures")]
         rows = iter(gammas(postproc, [path for name in names for path in places[name]], unit, begin))
         for name in names:
             found[name] = [numbers(path, unit, begin, others) | next(rows) for path in places[name]]
@@ -157,7 +141,7 @@ def measured(postproc, folder):
         keys = dict.fromkeys(key for one in some for key in one)
         result[name] = {"seeds": len(some)} | {key: mean_and_error([one.get(key, math.nan) for one in some]) for key in keys}
         if not name.startswith("ruptures"):
-            result[name] |= exponents(places[name], *((1e-3, LOADING) if is_fault(name) else (1.0, 0.0)))
+            result[name] |= exponents(places[name], *((1e-3, LOADING) if name.startswith("fault") else (1.0, 0.0)))
     return result
 
 
@@ -184,12 +168,7 @@ def lines_of(found):
 
 
 def main(postproc, folder, out):
-    lines = lines_of(measured(postproc, folder))
-    names = list(dict.fromkeys(key for line in lines for key in line))
-    with open(out, "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, names, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(lines)
+    write_table(out, [], lines_of(measured(postproc, folder)))
 
 
 if __name__ == "__main__":

@@ -155,8 +155,8 @@ def numbers_of_point(postproc, folder, memory, work):
     events = recorded(events, history, begin)
     size, of = events["size"], (events["size"] >= 1e-3) & (events["size"] < 0.1)
     if np.sum(of) >= 5:
-        excess, rank, _ = judged(history, events, (begin - history.offset) / history.dt)
-        numbers |= {"excess": f"{np.sum((excess * size)[of]) / np.sum(size[of]):.4g}", "rank": f"{np.mean(rank[of]):.4g}"}
+        excess, _ = judged(history, events, (begin - history.offset) / history.dt)
+        numbers["excess"] = f"{np.sum((excess * size)[of]) / np.sum(size[of]):.4g}"
     return numbers
 
 

@@ -5,13 +5,7 @@ For each event:
   excess   frictional work within it, less what friction does in as much time between events, over its size, as in
            `postproc --where "excess > 0.5"`. 1: friction takes up what the springs lose; 0: it does no more than between events, so
            that the energy goes to the load or waves
-  rank     share of random stretches of the run in which no place of the fault (bin of the slip history) slips as far as the place
-           that slips farthest in the event. 0.5: it slips as far as at any other time
-  chance   share of these stretches whose excess, over the size of the event, is above 0.5
-  together share of random stretches of whose slip half lies in a longer part of the fault than of that of the event. 0.5: its slip is
-           scattered like that of any other time
-  jump     share of the size by which PE falls in one step, if this fall is more than ten times the median change around it, else 0:
-           a contact whose friction falls from static to dynamic lets its spring go at once
+  chance   share of random stretches of the run whose excess, over the size of the event, is above 0.5
 The stretches are as long as the event, and no event of its size or more goes on in them.
 An event counts as slip if its excess is above 0.5. As many as `chance` says would count at any other time, as some place of a
 long fault slips nearly always: shares and rates of slip leave these out.
@@ -20,14 +14,14 @@ import numpy as np
 
 import lsm
 
-__all__ = ["SLIP", "History", "excess_of", "gathered", "judged", "jumps", "recorded", "slip_share"]
+__all__ = ["SLIP", "History", "excess_of", "judged", "recorded", "slip_share"]
 
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
 
 
 class History:
-    """Slip of each place and frictional work of the whole fault, summed over time."""
+    """Frictional work of the whole fault, summed over time."""
 
     def __init__(self, path):
         history = lsm.read_slip(path)
@@ -35,25 +29,7 @@ class History:
         self.dt = float(history.header["dt"])
         self.offset = float(history.header["time0"]) - float(history.header["step0"]) * self.dt
         self.steps = np.concatenate([history["step_begin"][:1], history["step_end"]]).astype(float)
-        self.slip = np.concatenate([np.zeros((1, history["slip"].shape[1])), np.cumsum(history["slip"], axis=0, dtype=float)])
         self.work = np.concatenate([[0.0], np.cumsum(history["work"].sum(axis=1, dtype=float))])
-
-    def slipped(self, at):
-        i = np.clip(np.searchsorted(self.steps, at, "right") - 1, 0, len(self.steps) - 2)
-        part = (at - self.steps[i]) / (self.steps[i + 1] - self.steps[i])
-        return self.slip[i] + (self.slip[i + 1] - self.slip[i]) * part[:, None]
-
-    def farthest(self, begin, end):
-        """Slip of the place that slips farthest from step `begin` to step `end`."""
-        return (self.slipped(end) - self.slipped(begin)).max(axis=1)
-
-    def half(self, begin, end):
-        """Length, in places, of the shortest part of the fault (a ring) with half of the slip from step `begin` to step `end`."""
-        slip, shortest = np.maximum(self.slipped(end) - self.slipped(begin), 0.0), []
-        places = np.arange(slip.shape[1])
-        for ring in np.concatenate([np.zeros((len(slip), 1)), np.cumsum(np.concatenate([slip, slip], axis=1), axis=1)], axis=1):
-            shortest.append((np.searchsorted(ring, ring[places] + ring[len(places)] / 2) - places).min())
-        return np.array(shortest)
 
     def done(self, at):
         """Frictional work until a step."""
@@ -64,7 +40,7 @@ class History:
 
 
 def recorded(catalogue, history, begin):
-    """The events >= 1e-4 from a time on that end within the history, which judged() and gathered() take."""
+    """The events >= 1e-4 from a time on that end within the history."""
     return catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
 
 
@@ -95,7 +71,7 @@ def friction_between(work, lasting, total, time):
 
 
 def judged(history, events, first):
-    """Excess, rank and chance of all events of a run, in order, in a history from step `first` on."""
+    """Excess and chance of all events of a run, in order, in a history from step `first` on."""
     begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
     work = events["friction_work"] if "friction_work" in events.dtype.names else history.worked(begin, end)  # step by step, if it was recorded
     rate = friction_between(work, end - begin, history.worked(first, history.steps[-1]), history.steps[-1] - first)
@@ -103,46 +79,19 @@ def judged(history, events, first):
     def excess(work):
         return np.asarray((work - rate * (end - begin)) / events["size"])
 
-    farthest, below, chance = history.farthest(begin, end), np.zeros(len(begin)), np.zeros(len(begin))
+    chance = np.zeros(len(begin))
     for start in random_starts(history, events, first, 1):
-        below += history.farthest(start, start + end - begin) < farthest
         chance += excess(history.worked(start, start + end - begin)) > SLIP
-    return excess(work), below / STRETCHES, chance / STRETCHES
+    return excess(work), chance / STRETCHES
 
 
 def excess_of(events):
-    """Excess of the events of a catalogue, by their work of friction, and what their springs are loaded with meanwhile.
-
-    On the mean of all time friction takes up what the plates put in, between events less: by the difference PE rises.
-    """
+    """Excess of the events of a catalogue, by their work of friction."""
     work, lasting = events["friction_work"], events["t_end"] - events["t_start"]
     total, time = events["friction_total"][-1] - events["friction_total"][0], events["t_end"][-1] - events["t_end"][0]
-    between = friction_between(work[1:], lasting[1:], total, time)
-    return np.asarray((work - between * lasting) / events["size"]), np.asarray((total / time - between) * lasting)
-
-
-def gathered(history, events, first):
-    """Whether the slip of each event lies together, in a history from step `first` on."""
-    begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
-    own, longer = history.half(begin, end), np.zeros(len(begin))
-    for start in random_starts(history, events, first, 2):
-        longer += history.half(start, start + end - begin) > own
-    return longer / STRETCHES
+    return np.asarray((work - friction_between(work[1:], lasting[1:], total, time) * lasting) / events["size"])
 
 
 def slip_share(excess, chance):
     """Share of events that are slip, beyond those that would count as slip by chance."""
     return (np.mean(excess > SLIP) - np.mean(chance)) / (1 - np.mean(chance))
-
-
-AROUND = 30  # steps before and after a fall of PE
-
-
-def jumps(pe, steps, events):
-    """Share of the size of each event that is lost in one step, if PE jumps there; PE at consecutive steps."""
-    falls, shares = -np.diff(pe), []
-    for first, last, size in zip(np.searchsorted(steps, events["step_start"]), np.searchsorted(steps, events["step_end"]), events["size"]):
-        at = first + int(np.argmax(falls[first:last]))
-        around = np.median(np.abs(falls[max(0, at - AROUND):at + AROUND]))
-        shares.append(falls[at] / size if falls[at] > 10 * around else 0.0)
-    return np.array(shares)
