@@ -25,16 +25,7 @@ double finite_burstiness(double r, double n) {
 }
 
 double memory_of(const std::vector<double> &times) {
-  const std::size_t n = times.size() - 1;
-  const double first = mean_of(times.data(), n), second = mean_of(times.data() + 1, n);
-  NeumaierSum product, squares1, squares2;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double a = times[i] - first, b = times[i + 1] - second;
-    product.add(a * b);
-    squares1.add(a * a);
-    squares2.add(b * b);
-  }
-  return product.value() / std::sqrt(squares1.value() * squares2.value());
+  return gsl_stats_correlation(times.data(), 1, times.data() + 1, 1, times.size() - 1);
 }
 
 AgainstChance against(double value, std::vector<double> random) {
@@ -46,8 +37,7 @@ AgainstChance against(double value, std::vector<double> random) {
   if (std::isnan(value) || random.empty()) return out;
   out.mean = mean_of(random);
   const auto n = static_cast<double>(random.size());
-  out.deviation = std::sqrt(gsl_stats_tss_m(random.data(), 1, random.size(), out.mean) /
-                            std::max(1.0, n - 1.0));
+  out.deviation = n > 1.0 ? gsl_stats_sd_m(random.data(), 1, random.size(), out.mean) : 0.0;
   const auto as_far = 1.0 + std::count_if(random.begin(), random.end(), [&out](double one) {
                         return std::fabs(one - out.mean) >= std::fabs(out.value - out.mean);
                       });
@@ -68,9 +58,7 @@ double departure_of(const std::vector<double> &starts) {
 double variation_of(const std::vector<double> &times) {
   if (times.size() < 2) return NAN;
   const double mean = mean_of(times);
-  NeumaierSum squares;
-  for (const double time : times) squares.add((time - mean) * (time - mean));
-  return std::sqrt(squares.value() / static_cast<double>(times.size())) / mean;
+  return gsl_stats_sd_with_fixed_mean(times.data(), 1, times.size(), mean) / mean;
 }
 
 double burstiness_of(double variation) { return (variation - 1.0) / (variation + 1.0); }

@@ -99,8 +99,7 @@ Measured block_mean(const std::vector<double> &values, int block) {
     means.push_back(mean_of(values.data() + one.from, one.to - one.from));
   const auto count = static_cast<double>(means.size());
   if (count < 2.0) return result;
-  const double squares = gsl_stats_tss_m(means.data(), 1, means.size(), result.value);
-  result.error = std::sqrt(squares / (count - 1.0) / count);
+  result.error = gsl_stats_sd_m(means.data(), 1, means.size(), result.value) / std::sqrt(count);
   return result;
 }
 
