@@ -7,10 +7,8 @@ report.py [--postproc PROGRAM] [-o PAGE] [--title TITLE] [--label NAME]... [--fr
           [--replicas N] CATALOGUE...
 """
 import argparse
-import gzip
 import html
 import json
-import lzma
 import os
 import re
 import shutil
@@ -22,6 +20,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 PYTHON = Path(__file__).resolve().parent.parent.parent / "python"  # of a checkout
 sys.path.insert(0, str(PYTHON))
+from lsm import lines_of  # noqa: E402
 from lsm.tables import header_of  # noqa: E402
 
 GENERATOR = '<meta name="generator" content="report.py">'
@@ -45,11 +44,7 @@ KINDS = {
 
 def parameters_of(path):
     """The header of a catalogue of a model; {} for earthquakes. \\raises OSError"""
-    raw = Path(path).read_bytes()
-    for magic, module in ((b"\x1f\x8b", gzip), (b"\xfd7zXZ\0", lzma)):
-        if raw.startswith(magic):
-            raw = module.decompress(raw)
-    lines = raw.decode("utf-8-sig", "replace").splitlines()
+    lines = lines_of(path)
     return header_of(lines) if lines and lines[0].startswith("# lsm-catalogue") else {}
 
 
@@ -71,69 +66,61 @@ class Postproc:
     def text(self, *words):
         return f'<div class="wide"><pre>{html.escape(self(*words))}</pre></div>\n'
 
-    def figure(self, name, title, caption):
-        """A picture that a command drew, as an element of the page; its identifiers must differ from those of others."""
-        svg = (self.folder / f"{name}.svg").read_text()
+    def figure(self, title, caption):
+        """The picture drawn last, as an element of the page; its identifiers must differ from those of others."""
         self.pictures += 1
-        svg = svg[svg.index("<svg"):svg.index("</svg>") + 6]
-        svg = re.sub(r"""( id=["']|href=["']#|url\(#)""", rf"\1f{self.pictures}-", svg)
+        svg = (self.folder / "out.svg").read_text()
+        svg = re.sub(r"""( id=["']|href=["']#|url\(#)""", rf"\1f{self.pictures}-", svg[svg.index("<svg"):svg.index("</svg>") + 6])
         svg = re.sub("<title>.*?</title>", f"<title>{html.escape(title)}</title>", svg, count=1, flags=re.S)
         svg = re.sub("<desc>.*?</desc>", "", svg, count=1, flags=re.S).replace('fill="#ffffff"', 'fill="none"', 1)
         return (f'<figure>\n<div class="wide"><svg role="img"{svg[4:]}</div>\n'
                 f"<figcaption><b>{html.escape(title)}.</b> {caption}</figcaption>\n</figure>\n")
 
-    def base(self, name):
-        return ["-o", self.folder / name]
-
-
-def or_why(make):
-    """What make() returns, or a paragraph with the reason if the data cannot be drawn. The catalogues were read before."""
-    try:
-        return make()
-    except ValueError as error:
-        return f'<p class="bad">{html.escape(str(error))}</p>\n'
-
 
 def section(postproc, files, labels, model, kind, settings):
-    """Sizes, scaling and times of the catalogues of one model and kind of events."""
-    named = [*files, *(f"--label={label}" for label in labels)]
-    least = ["--threshold", settings.threshold] if settings.threshold else []
+    """Sizes, scaling and times of the catalogues of one model and kind of events; where there is nothing to draw or to fit, why."""
+    named = [*files, *(f"--label={label}" for label in labels), "-o", postproc.folder / "out"]
+    least, replicas = ["--threshold", settings.threshold] if settings.threshold else [], ["--replicas", settings.replicas]
     of_sizes, of_times = (f"Compare with Fig. {n} of the paper. " if kind == "pe" else "" for n in FIGURES.get(model, ("", "")))
-    quick = ["--seed", 1, "--replicas", settings.replicas]
+    times = ["intervals", *named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood", "--seed", 1]
 
     def sizes():
-        postproc("histograms", *named, *least, *GUIDES.get(model, []), *postproc.base("sizes"))
+        postproc("histograms", *named, *least, *GUIDES.get(model, []))
         return postproc.figure(
-            "sizes", "Densities of event sizes", f"{of_sizes}Straight lines: the paper's exponents; their ranges are †. Ten bins a "
+            "Densities of event sizes", f"{of_sizes}Straight lines: the paper's exponents; their ranges are †. Ten bins a "
             "decade, count / (N width), Poisson errors (one decade down where they reach zero).")
 
     def fits():
-        text = postproc.text("fit", *named, *least, *quick, *postproc.base("fit"))
-        return text + "".join(postproc.text("fit", *named, *quick, *RANGES[model], *postproc.base("ranges")) for _ in [0] if model in RANGES)
+        text = postproc.text("fit", *named, *least, "--seed", 1, *replicas)
+        return text + (postproc.text("fit", *named, "--seed", 1, *replicas, *RANGES[model]) if model in RANGES else "")
 
     def scaling():
-        text = postproc.text("lsm.scaling", *named, *least, *quick[:2], *postproc.base("scaling"))
-        return text + postproc.figure(
-            "scaling", "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
+        return postproc.text("lsm.scaling", *named, *least, "--seed", 1) + postproc.figure(
+            "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
             "of the sizes; errors by resampling blocks of time; lines: weighted fits.")
 
-    def times(rescaled):
-        words = [*named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood"]
-        text = postproc.text("intervals", *words, "--seed", 1, "--replicas", 0 if rescaled else settings.replicas, *["--rescale"] * rescaled,
-                             *postproc.base("times"))
-        if rescaled:
-            return postproc.figure("times", "Inter-event times divided by their mean",
-                                   "Not in the paper; the scaling in which Corral (2004) found the "
-                                   "distribution of seismicity to be universal.")
+    def densities():
+        text = postproc.text(*times, *replicas)
         return postproc.figure(
-            "times", "Densities of inter-event times", f"{of_times}Start to start; lines: fitted generalised gamma densities, "
+            "Densities of inter-event times", f"{of_times}Start to start; lines: fitted generalised gamma densities, "
             "maximum likelihood with δ = 1 where that is not degenerate.") + text
 
-    out = f"<p>{PRINTED[model]} Ours is by maximum likelihood on a range with both ends.</p>\n" if model in PRINTED and kind == "pe" else ""
-    out = f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n{or_why(sizes)}{out}{or_why(fits)}"
-    if model != "earthquakes":
-        out += f"<h3>Finite-size scaling</h3>\n{or_why(scaling)}"
-    return out + f"<h3>Inter-event times</h3>\n{or_why(lambda: times(False))}{or_why(lambda: times(True))}"
+    def rescaled():
+        postproc(*times, "--replicas", 0, "--rescale")
+        return postproc.figure("Inter-event times divided by their mean", "Not in the paper; the scaling in which Corral (2004) found the "
+                               "distribution of seismicity to be universal.")
+
+    said = f"<p>{PRINTED[model]} Ours is by maximum likelihood on a range with both ends.</p>\n" if model in PRINTED and kind == "pe" else ""
+    out = ""
+    for part in (f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n", sizes, said, fits,
+                 *(("<h3>Finite-size scaling</h3>\n", scaling) if model != "earthquakes" else ()), "<h3>Inter-event times</h3>\n", densities, rescaled):
+        try:
+            out += part() if callable(part) else part
+        except ValueError as error:
+            out += f'<p class="bad">{html.escape(str(error))}</p>\n'
+        for path in postproc.folder.glob("out*"):
+            path.unlink()
+    return out
 
 
 def parameter_table(headers):

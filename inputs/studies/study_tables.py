@@ -21,6 +21,7 @@ import yaml
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
 from lsm import LOADING  # noqa: E402
+from lsm.analysis import mean_and_error  # noqa: E402
 from recipes import Found, Missing, Numbers, Recipe, RecipeError, meant, read_json  # noqa: E402
 from run import MPI, PROGRAMS, begun_otherwise, replace  # noqa: E402
 from variables import declared, defaults  # noqa: E402
@@ -45,28 +46,17 @@ def with_defaults(config):
         text = "" if value is None else str(value)
         if name in WHOLE and not re.fullmatch(r"[1-9]\d*" if known[name] else r"([1-9]\d*)?", text):
             raise TableError(f"'{name}={text}', expected a whole number above 0")
-        if name in POSITIVE and not positive(text):
+        if name in POSITIVE and not is_number(text, 0):
             raise TableError(f"'{name}={text}', expected a number above 0")
     pattern(config.get("only"), "only")
     return {**known, **config}
 
 
-def is_number(text):
+def is_number(text, above=-math.inf):
     try:
-        return math.isfinite(float(text))
+        return above < float(text) < math.inf
     except ValueError:
         return False
-
-
-def positive(text):
-    try:
-        return 0 < float(text) < math.inf
-    except ValueError:
-        return False
-
-
-def shorten_of(config):
-    return float(config.get("shorten") or 1)
 
 
 def pattern(text, where):
@@ -95,7 +85,7 @@ class Run:
 
     def __init__(self, name, row, config):
         self.name = self.folder = name
-        self.row, self.program, self.settings, self.shorten = row, row["program"], settings_of(row, config), shorten_of(config)
+        self.row, self.program, self.settings, self.shorten = row, row["program"], settings_of(row, config), float(config.get("shorten") or 1)
         self.postproc = shlex.quote(f"{config.get('bin')}/postproc")
         on_ranks = PROGRAMS[self.program].on_ranks
         given = row.get("ranks") or (config.get("ranks") if on_ranks else "")
@@ -166,12 +156,12 @@ def settings_of(row, config):
         pairs[key] = value
     if row["program"] == "catalogue":
         return pairs
-    shorten = shorten_of(config)
+    shorten = float(config.get("shorten") or 1)
     if shorten != 1 and not {"steps", "time"} & pairs.keys():
         raise TableError(f"shorten={shorten:g}, but the line has neither steps nor time")
     for key in ("steps", "time"):
         if key in pairs:
-            if not positive(pairs[key]):
+            if not is_number(pairs[key], 0):
                 raise TableError(f"{key} '{pairs[key]}', expected a number above 0")
             value = float(pairs[key]) / shorten
             pairs[key] = f"{value:.0f}" if key == "steps" else f"{value:.15g}"
@@ -237,22 +227,11 @@ def text(value):
     return "" if value is None or value != value else f"{value:.6g}" if isinstance(value, float) else value
 
 
-def mean_and_error(numbers):
-    """Mean and its standard error as texts, which are empty if there is none; missing numbers (NaN) are ignored."""
-    there = [number for number in numbers if not math.isnan(number)]
-    if not there:
-        return ["", ""]
-    mean = math.fsum(there) / len(there)
-    if len(there) < 2:
-        return [f"{mean:.6g}", ""]
-    return [f"{mean:.6g}", f"{math.sqrt(math.fsum((x - mean) ** 2 for x in there) / (len(there) - 1) / len(there)):.6g}"]
-
-
 class Study:
 
     def __init__(self, config):
         table = Path(config["table"])
-        self.binaries, self.shorten = config["bin"], shorten_of(config)
+        self.binaries, self.shorten = config["bin"], float(config.get("shorten") or 1)
         self.runs = read_runs(table, config)
         self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
         own = table.with_suffix(".py")
@@ -445,13 +424,10 @@ class Study:
         means, differences = (self.recipe(part, runs[0], self.nothing(runs[0])) for part in ("means", "differences"))
         lines = [columns + ["seeds"] + [name + end for name in (*means, *differences) for end in ("", "_error")]]
         for key, runs in groups.items():
-            line = [*key, len(runs)]
-            for name in means:
-                line += mean_and_error([values[run.name][0][name] for run in runs])
-            for name in differences:
-                others = [(values[run.name][1][name], first[run.row.get("seed")][name]) for run in runs if run.row.get("seed") in first]
-                line += mean_and_error([one - other for one, other in others])
-            lines.append(line)
+            numbers = [[values[run.name][0][name] for run in runs] for name in means]
+            numbers += [[values[run.name][1][name] - first[run.row.get("seed")][name] for run in runs if run.row.get("seed") in first]
+                        for name in differences]
+            lines.append([*key, len(runs), *(text(float(one)) for some in numbers for one in mean_and_error(some))])
         return lines
 
     def write(self, name, path):
