@@ -113,7 +113,8 @@ def section(postproc, files, labels, model, kind, settings):
     said = f"<p>{PRINTED[model]} Ours is by maximum likelihood on a range with both ends.</p>\n" if model in PRINTED and kind == "pe" else ""
     out = ""
     for part in (f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n", sizes, said, fits,
-                 *(("<h3>Finite-size scaling</h3>\n", scaling) if model != "earthquakes" else ()), "<h3>Inter-event times</h3>\n", densities, rescaled):
+                 *(("<h3>Finite-size scaling</h3>\n", scaling) if model != "earthquakes" else
+                   ()), "<h3>Inter-event times</h3>\n", densities, rescaled):
         try:
             out += part() if callable(part) else part
         except ValueError as error:

@@ -19,7 +19,7 @@ WINDOW = 3.0  # time units: long against the periods of single discs (about 1), 
 
 
 def stick_slip_above(length):
-    """Saw-tooth number above which a fault is said to stick-slip: 3 up to length 120, chosen from the regime map of the fault. A longer one
+    """Saw-tooth number above which a fault is said to stick-slip: 3 up to length 120, chosen from runs of the fault over stress and viscosity. A longer one
     has n = length / 120 parts that slip independently and whose PE adds up, so that the number falls about as 1/sqrt(n) towards the 1
     of a creeping fault; the limit does likewise. length: NaN if it is not known"""
     return 1 + 2 * math.sqrt(120 / length) if length > 120 else 3.0
