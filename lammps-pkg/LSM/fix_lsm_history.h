@@ -13,8 +13,9 @@ FixStyle(LSM_HISTORY,FixLSMHistory);
 #define LMP_FIX_LSM_HISTORY_H
 
 #include "fix_neigh_history.h"
-#include "lsm_near_pairs.h"
+#include "lsm_contacts.h"
 
+#include <functional>
 #include <unordered_map>
 
 namespace LAMMPS_NS {
@@ -33,7 +34,8 @@ class FixLSMHistory : public FixNeighHistory, public LSMContactStore {
   double *values_of(int i, int jj) override { return &firstvalue[i][dnum * jj]; }
   void add_pair(int i, int jj) override;
 
-  LSMNearPairs *near = nullptr;    // which has the states of contacts; set by the pair style
+  // Writes the states of contacts here if they have changed, and says so; set by the pair style.
+  std::function<bool()> write_states;
 
  private:
   struct Row {

@@ -277,7 +277,9 @@ void PairLSMFriction::init_style()
                                         table.law->state_size ? table.law->name : ""),
                             1));
     fix_history->pair = this;
-    fix_history->near = &near;
+    fix_history->write_states = [this] {
+      return near.write_states(*fix_history);
+    };
   } else {
     fix_history = dynamic_cast<FixLSMHistory *>(modify->get_fix_by_id(id_history));
     if (!fix_history)

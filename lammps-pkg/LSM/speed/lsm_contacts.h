@@ -10,6 +10,18 @@
 
 namespace LAMMPS_NS {
 
+/// Where contacts are kept from one neighbor list to the next: of a pair, given by its first
+/// particle and the index of its partner in the neighbors, whether it has a state, and the state.
+class LSMContactStore {
+ public:
+  virtual ~LSMContactStore() noexcept(false) {}    // as LAMMPS' own base classes
+
+  virtual int *touch_of(int i, int jj) = 0;
+  virtual double *values_of(int i, int jj) = 0;
+  /// Makes room for the pair that was added as entry jj, the last, to the neighbors of particle i.
+  virtual void add_pair(int i, int jj) = 0;
+};
+
 /// The pairs that LSMNearPairs keeps, by their place: in the order of the neighbor list those that
 /// were chosen, then those that were added. In LAMMPS' arrays, what is needed of a contact would be
 /// scattered over a dozen cache lines. Knows nothing of LAMMPS.

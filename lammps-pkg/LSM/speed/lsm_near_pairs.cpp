@@ -250,15 +250,16 @@ bool LSMNearPairs::settle(int place)
   return is_near;
 }
 
-void LSMNearPairs::write_states(LSMContactStore &store)
+bool LSMNearPairs::write_states(LSMContactStore &store)
 {
-  if (!changed || build_number != lmp_->neighbor->ncalls) return;
+  if (!changed || build_number != lmp_->neighbor->ncalls) return false;
   changed = false;
   for (const Listed &pair : listed) {
     const bool has_state = pair.place >= 0 && settle(pair.place);
     *store.touch_of(pair.i, pair.jj) = has_state;
     if (has_state) std::copy_n(state(pair.place), state_size, store.values_of(pair.i, pair.jj));
   }
+  return true;
 }
 
 int LSMNearPairs::place_of(int i, int j)

@@ -17,18 +17,6 @@
 namespace LAMMPS_NS {
 class NeighList;
 
-/// Where contacts are kept from one neighbor list to the next: of a pair, given by its first
-/// particle and the index of its partner in the neighbors, whether it has a state, and the state.
-class LSMContactStore {
- public:
-  virtual ~LSMContactStore() noexcept(false) {}    // as LAMMPS' own base classes
-
-  virtual int *touch_of(int i, int jj) = 0;
-  virtual double *values_of(int i, int jj) = 0;
-  /// Makes room for the pair that was added as entry jj, the last, to the neighbors of particle i.
-  virtual void add_pair(int i, int jj) = 0;
-};
-
 /// Most pairs in the neighbor list of a dense block never touch. This class keeps the pairs that
 /// may come near before particles have moved by a small skin against each other, and in each step
 /// finds those of them that touch. No pair is missed. It is also the one home of the states of
@@ -53,10 +41,8 @@ class LSMNearPairs : public LSMContacts {
   /// Brings everything to this step. To be called once in each, before forces are evaluated.
   /// \param store  what a new list begins with, null for contacts without a state
   void update(NeighList &, const double *radius, LSMContactStore *store);
-  /// Whether states were evaluated that are not written.
-  bool has_changed() const { return changed; }
-  /// Writes the states, if they have changed, of all pairs of the list.
-  void write_states(LSMContactStore &);
+  /// Writes the states of all pairs of the list, if they have changed. Returns whether they had.
+  bool write_states(LSMContactStore &);
   bool is_empty() const { return build_number < 0; }
   /// Finds again which pairs are across the fault, for groups that change.
   void find_sides();
