@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # All sources are formatted: C++ as the .clang-format next to them says (that of lammps-pkg/LSM is
-# LAMMPS' own), Python as .style.yapf says, shell with two blanks; and shellcheck has no warning.
+# LAMMPS' own), Python as .style.yapf says, shell with two blanks; shellcheck has no warning, and
+# scripts may be executed.
 # With the programs of Debian 12: clang-format-14, yapf3, shfmt, shellcheck.
 # usage: check-format.sh [--fix] [FILE...]     (all files of the project without names; --fix formats)
 set -euo pipefail
@@ -71,6 +72,15 @@ if ! command -v shellcheck >/dev/null; then missing shellcheck; elif [ ${#files[
   ! echo 'cd $1' | shellcheck -s bash - >/dev/null || blind shellcheck
   shellcheck -s bash -x -S warning -e SC2034,SC2206,SC1007 "${files[@]}" || bad=1
 fi
+
+mapfile -t files < <(files_of '\.(py|sh)$' "$@")
+mapfile -t files < <(awk 'FNR == 1 && /^#!/ { print FILENAME } { nextfile }' "${files[@]}" /dev/null)
+for file in "${files[@]}"; do
+  [ -x "$file" ] || {
+    echo "$file begins with #!, expected the permission to execute it" >&2
+    bad=1
+  }
+done
 
 [ $bad = 0 ] || exit 1
 exit $skipped

@@ -47,7 +47,7 @@ void FixLSMHistory::init()
 
 void FixLSMHistory::pre_exchange()
 {
-  write_states();
+  gather_states();
   FixNeighHistory::pre_exchange();
 }
 
@@ -76,7 +76,7 @@ void FixLSMHistory::add_pair(int i, int jj)
 // already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {
-  if (write_states()) FixNeighHistory::pre_exchange();
+  if (gather_states()) FixNeighHistory::pre_exchange();
   if (comm->me) return;
   const int size = law.empty() ? 0 : static_cast<int>(law.size()) + 1;
   fwrite(&size, sizeof(int), 1, fp);

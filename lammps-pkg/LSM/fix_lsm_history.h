@@ -35,7 +35,7 @@ class FixLSMHistory : public FixNeighHistory, public LSMContactStore {
   void add_pair(int i, int jj) override;
 
   // Writes the states of contacts here if they have changed, and says so; set by the pair style.
-  std::function<bool()> write_states;
+  std::function<bool()> gather_states;
 
  private:
   struct Row {

@@ -277,7 +277,7 @@ void PairLSMFriction::init_style()
                                         table.law->state_size ? table.law->name : ""),
                             1));
     fix_history->pair = this;
-    fix_history->write_states = [this] {
+    fix_history->gather_states = [this] {
       return near.write_states(*fix_history);
     };
   } else {
