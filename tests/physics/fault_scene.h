@@ -82,6 +82,13 @@ inline std::string fault_read() {
          "timestep ${dt}\n";
 }
 
+/// Begins from a restart file of the fault.
+inline std::string fault_restart(const std::string &file) {
+  return "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+         "comm_modify mode single cutoff 3.6\nread_restart " +
+         file + "\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n";
+}
+
 /// Fixes, compute and thermo output of the shear phase. Events are frequent, as the plates are
 /// fast.
 inline std::string fault_shear(const std::string &events) {
@@ -99,8 +106,7 @@ class Fault : public Lmp {
  protected:
   static void SetUpTestSuite() {
     Lmp::SetUpTestSuite();
-    const Result settled = run_text(fault_settle());
-    if (settled.exit_code != 0) throw std::runtime_error(settled.output);
+    ran(fault_settle());
   }
 };
 

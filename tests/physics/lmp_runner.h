@@ -125,8 +125,23 @@ class Lmp : public ::testing::Test {
     std::ofstream(path("script.in")) << script;
     return start("script.in", variables, ranks);
   }
+  /// The same for runs that are to succeed: otherwise the test fails and ends.
+  static Result ran_scene(const std::string &name, const Variables &variables = {}, int ranks = 1) {
+    return good(run_scene(name, variables, ranks));
+  }
+  static Result ran(const std::string &script, const Variables &variables = {}, int ranks = 1) {
+    return good(run_text(script, variables, ranks));
+  }
+  /// Expects one line of error with all the given parts.
+  static void refused(const std::vector<std::string> &parts, const std::string &script,
+                      const Variables &variables = {}, int ranks = 1);
 
  private:
+  static Result good(Result result) {
+    if (result.exit_code == 0) return result;
+    throw std::runtime_error("exit code " + std::to_string(result.exit_code) + "\n" +
+                             result.output);
+  }
   static std::filesystem::path &folder() {
     static std::filesystem::path one;
     return one;
@@ -190,6 +205,12 @@ inline ::testing::AssertionResult failed_with(const Result &result,
     if (lines[0].find(part) == std::string::npos)
       return ::testing::AssertionFailure() << "'" << part << "' is not in: " << lines[0];
   return ::testing::AssertionSuccess();
+}
+
+inline void Lmp::refused(const std::vector<std::string> &parts, const std::string &script,
+                         const Variables &variables, int ranks) {
+  EXPECT_TRUE(failed_with(run_text(script, variables, ranks), parts))
+      << script.substr(script.size() - std::min<std::size_t>(script.size(), 400));
 }
 
 /// Largest difference between two thermo tables, relative to the largest value of each column. The

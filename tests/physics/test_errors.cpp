@@ -13,10 +13,9 @@ using BlowUp = Fault;
 
 TEST_F(BadInput, TimeStepAboveTheLimitIsRefusedWithBothNumbers) {
   const std::string script = fault_read() + fault_shear("catalogue none.csv") + "run 10\n";
-  const Result r = run_text(script, {{"dt", "0.3"}});
-  EXPECT_TRUE(failed_with(r, {"Time step 0.3", "stability limit 0."}));
-  const Result below = run_text(script, {{"dt", "0.05"}});
-  EXPECT_TRUE(succeeded(below));
+  refused({"Time step 0.3", "stability limit 0."}, script, {{"dt", "0.3"}});
+  refused({"stability limit 0."}, script, {{"dt", "0.3"}}, 2);
+  ran(script, {{"dt", "0.05"}});
 }
 
 TEST_F(BadInput, OneLineOfError) {
@@ -46,8 +45,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"group none empty\nfix a all lsm/plates lower none stress 1\nrun 1", {"none", "particles"}},
       {"fix b all lsm/nve\nfix a all lsm/plates lower upper stress 1\nrun 1", {"fix b"}},
       {"create_lsm_fault length 40 width 20 seed 1", {"box"}}};
-  for (const auto &one : cases)
-    EXPECT_TRUE(failed_with(run_text(fault_read() + one.lines + "\n"), one.parts)) << one.lines;
+  for (const auto &one : cases) refused(one.parts, fault_read() + one.lines + "\n");
 
   const std::vector<Case> geometry = {
       {"length 40 width 20 seed 1 rmin 1 rmax 0.5", {"rmin", "rmax"}},
@@ -56,9 +54,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"length 40 width 20 seed 1 linkgap 0.05", {"linkgap = 0.05", "less than rmin/10"}},
       {"length 40 width 20 seed 1 linkratio 1.5", {"linkratio = 1.5", "1 to 1.25"}}};
   for (const auto &one : geometry)
-    EXPECT_TRUE(
-        failed_with(run_text(fault_start() + "create_lsm_fault " + one.lines + "\n"), one.parts))
-        << one.lines;
+    refused(one.parts, fault_start() + "create_lsm_fault " + one.lines + "\n");
 }
 
 // As LAMMPS' own messages do; those of a run quote no line, as their cause is earlier.
@@ -74,10 +70,8 @@ TEST_F(BadInput, MessagesPointToTheWord) {
 }
 
 TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
-  EXPECT_TRUE(failed_with(run_text(fault_read() + "fix a all lsm/nve viscosity -1\n", {}, 2),
-                          {"viscosity", "-1"}));
-  EXPECT_TRUE(failed_with(run_text(fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}}, 2),
-                          {"stability limit"}));
+  refused({"viscosity", "-1"}, fault_read() + "fix a all lsm/nve viscosity -1\n", {}, 2);
+  refused({"stability limit"}, fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}}, 2);
 }
 
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
@@ -124,10 +118,9 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
 }
 
 TEST_F(BadInput, StiffnessThatFixAdaptMakesNegative) {
-  EXPECT_TRUE(failed_with(run_text(fault_read() + fault_shear("") +
-                                   "variable a equal -1.0\n"
-                                   "fix a all adapt 1 bond lsm/linked k 1 v_a\nrun 3\n"),
-                          {"k of type 1 is -1", "> 0"}));
+  refused({"k of type 1 is -1", "> 0"}, fault_read() + fault_shear("") +
+                                            "variable a equal -1.0\n"
+                                            "fix a all adapt 1 bond lsm/linked k 1 v_a\nrun 3\n");
 }
 
 // If the name of an output leads, in any spelling, to the file of another one, nothing is written.
@@ -156,19 +149,15 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
       {"catalogue one.csv.new", "", {"names that end in .new"}}};
   for (const auto &one : cases) {
     std::filesystem::remove(path("one.csv"));
-    EXPECT_TRUE(
-        failed_with(run_text(shear + one.more + "\nrun 10\n", {{"files", one.files}}), one.parts))
-        << one.files << " " << one.more;
+    refused(one.parts, shear + one.more + "\nrun 10\n", {{"files", one.files}});
     EXPECT_EQ(read_file(path("there.csv")), "somebody's data\n") << one.files;
   }
-  EXPECT_TRUE(
-      succeeded(run_text(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null"}})));
+  ran(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null"}});
 }
 
 TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
-  EXPECT_TRUE(
-      failed_with(run_text(fault_read() + fault_shear("bin 1e-6 ruptures many.csv") + "run 10\n"),
-                  {"bin 1e-06 makes", "bins of a box", "expected at most 1048576"}));
+  refused({"bin 1e-06 makes", "bins of a box", "expected at most 1048576"},
+          fault_read() + fault_shear("bin 1e-6 ruptures many.csv") + "run 10\n");
   EXPECT_FALSE(std::filesystem::exists(path("many.csv")));
 }
 
@@ -177,11 +166,10 @@ TEST_F(BadInput, AnotherRunWritesTheFile) {
   for (int ranks : {1, 2})
     for (const char *file : {"held.csv", "held.pe"}) {
       const LSM::FileLock held(path(file));
-      EXPECT_TRUE(failed_with(run_text(shear + "run 10\n", {}, ranks),
-                              {file, "is being written by another run"}));
+      refused({file, "is being written by another run"}, shear + "run 10\n", {}, ranks);
       EXPECT_FALSE(std::filesystem::exists(path("held.csv"))) << file;
     }
-  EXPECT_TRUE(succeeded(run_text(shear + "run 10\nuncompute events\n")));
+  ran(shear + "run 10\nuncompute events\n");
   EXPECT_FALSE(std::filesystem::exists(path("held.csv.new")));
 }
 
@@ -198,8 +186,7 @@ TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
       const std::string start =
           fault_read() + often + fault_shear("${check} emergency off.restart");
       const Variables free = {{"viscosity", viscosity}, {"check", "check 1000"}};
-      const Result all = run_text(start + "thermo 1\nrun 1000\n", free, ranks);
-      ASSERT_TRUE(succeeded(all));
+      const Result all = ran(start + "thermo 1\nrun 1000\n", free, ranks);
       double worst = 0.0;
       for (const auto &row : all.thermo) {
         const double scale = row.at("c_events[11]") + row.at("c_events[12]") +
@@ -210,19 +197,15 @@ TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
       for (const char *every : {"1", "7"}) {
         if (ranks == 2 && every[0] == '7') continue;
         std::filesystem::remove(path("off.restart"));
-        const Result sane =
-            run_text(start + "thermo 10000\nrun 1000\n",
-                     {{"viscosity", viscosity},
-                      {"check", "tolerance " + text(1.01 * worst) + " check " + every}},
-                     ranks);
-        EXPECT_TRUE(succeeded(sane));
+        ran(start + "thermo 10000\nrun 1000\n",
+            {{"viscosity", viscosity},
+             {"check", "tolerance " + text(1.01 * worst) + " check " + every}},
+            ranks);
         EXPECT_FALSE(std::filesystem::exists(path("off.restart")));
       }
-      EXPECT_TRUE(failed_with(run_text(start + "thermo 10000\nrun 1000\n",
-                                       {{"viscosity", viscosity},
-                                        {"check", "tolerance " + text(0.1 * worst) + " check 1"}},
-                                       ranks),
-                              {"ledger", "off.restart"}));
+      refused({"ledger", "off.restart"}, start + "thermo 10000\nrun 1000\n",
+              {{"viscosity", viscosity}, {"check", "tolerance " + text(0.1 * worst) + " check 1"}},
+              ranks);
     }
 }
 
@@ -252,14 +235,9 @@ TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
       const std::string step = std::to_string(std::stoi(line.substr(line.find("at step ") + 8)));
       ASSERT_GT(std::stoi(step), 10);
       ASSERT_TRUE(std::filesystem::exists(path("off.restart")));
-      ASSERT_TRUE(succeeded(run_text(
-          fault_read() + often + fault_shear("") + "thermo 10000\nrun " + step + "\n" + wrap + dump,
-          {{"file", "whole.dump"}, {"viscosity", viscosity}, {"velocity", velocity}}, ranks)));
-      ASSERT_TRUE(
-          succeeded(run_text("newton off\natom_style hybrid bond sphere\natom_modify map array\n"
-                             "comm_modify mode single cutoff 3.6\nread_restart off.restart\n" +
-                                 dump,
-                             {{"file", "off.dump"}}, ranks)));
+      ran(fault_read() + often + fault_shear("") + "thermo 10000\nrun " + step + "\n" + wrap + dump,
+          {{"file", "whole.dump"}, {"viscosity", viscosity}, {"velocity", velocity}}, ranks);
+      ran(fault_restart("off.restart") + dump, {{"file", "off.dump"}}, ranks);
       const std::string whole = read_file(path("whole.dump")), off = read_file(path("off.dump"));
       EXPECT_GT(whole.size(), 10000u);
       EXPECT_TRUE(whole == off) << "step " << step;
@@ -278,13 +256,10 @@ write_restart     kept.state
 )";
   const std::string both = "catalogue kept.csv series kept.pe";
   const std::string again =
-      "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
-      "comm_modify mode single cutoff 3.6\nread_restart kept.state\n"
-      "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\ntimestep 0.03\n" +
-      shear.substr(fault_read().size());
+      fault_restart("kept.state") + "timestep 0.03\n" + shear.substr(fault_read().size());
   for (int ranks : {1, 2}) {
     for (const char *file : {"kept.csv", "kept.pe"}) std::filesystem::remove(path(file));
-    ASSERT_TRUE(succeeded(run_text(shear, {{"files", both}}, ranks)));
+    ran(shear, {{"files", both}}, ranks);
     const std::string catalogue = read_file(path("kept.csv")), series = read_file(path("kept.pe"));
     ASSERT_GT(series.size(), 10000u);
     std::filesystem::copy_file(path("kept.state"), path("first.state"),
@@ -295,31 +270,25 @@ write_restart     kept.state
              !std::filesystem::exists(path("new.pe")) &&
              !std::filesystem::exists(path("kept.csv.new"));
     };
-    const std::vector<std::pair<std::string, std::string>> refused = {
-        {both, "kept.csv"},
+    const std::vector<std::pair<std::string, std::string>> in_the_way = {
         {"catalogue new.csv series kept.pe", "kept.pe"},
         {"catalogue kept.csv series new.pe", "kept.csv"},
         {both + " overwrite no", "kept.csv"}};
-    for (const auto &[files, name] : refused) {
+    for (const auto &[files, name] : in_the_way) {
       if (ranks == 2 && name == "kept.pe") continue;
-      EXPECT_TRUE(failed_with(run_text(shear, {{"files", files}}, ranks),
-                              {name, "exists", "overwrite yes"}))
-          << files;
+      refused({name, "exists", "overwrite yes"}, shear, {{"files", files}}, ranks);
       EXPECT_TRUE(unchanged()) << files;
       // The same holds for a run from a restart file without `resume yes`.
-      EXPECT_TRUE(
-          failed_with(run_text(again, {{"files", files}}, ranks), {name, "exists", "resume yes"}))
-          << files;
+      refused({name, "exists", "resume yes"}, again, {{"files", files}}, ranks);
       EXPECT_TRUE(unchanged()) << files;
     }
-    EXPECT_TRUE(
-        failed_with(run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe"}}, ranks),
-                    {"no/folder/s.pe"}));
+    refused({"no/folder/s.pe"}, shear, {{"files", "catalogue new.csv series no/folder/s.pe"}},
+            ranks);
     EXPECT_TRUE(unchanged());
     // With `overwrite yes` it is.
-    ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));
+    ran(shear, {{"files", both + " overwrite yes"}}, ranks);
     EXPECT_TRUE(unchanged());
-    ASSERT_TRUE(succeeded(run_text(again, {{"files", both + " overwrite yes"}}, ranks)));
+    ran(again, {{"files", both + " overwrite yes"}}, ranks);
     EXPECT_FALSE(read_file(path("kept.pe")) == series);
   }
 }

@@ -69,21 +69,16 @@ int builds(const Result &result) {
 
 TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
   for (const char *pair : {free_pairs, few_pairs, friction_pairs}) {
-    const Result exact = run_text(lane(pair), {{"check", "no"}});
-    ASSERT_TRUE(succeeded(exact));
+    const Result exact = ran(lane(pair), {{"check", "no"}});
     EXPECT_EQ(builds(exact), 3000);
     const double went = exact.last("v_x") - exact.thermo.front().at("v_x");
     EXPECT_GT(went, 10.0) << "the discs have to pass many others";
     EXPECT_EQ(exact.lines_with("Added 1 bonds").size(), 1u) << exact.output;
     // without a margin of the ghosts LAMMPS builds the lists whenever the disc has moved by 0.2
-    const Result without = run_text(lane(pair), {{"cutoff", "2.4"}});
-    ASSERT_TRUE(succeeded(without));
+    const Result without = ran(lane(pair), {{"cutoff", "2.4"}});
     EXPECT_GT(builds(without), 40);
     for (int ranks : {1, 2, 4}) {
-      const Result r = run_text(lane(pair), {}, ranks);
-      ASSERT_TRUE(succeeded(r));
-      std::printf("%d ranks: %d builds, %d without a margin; moved by %g\n", ranks, builds(r),
-                  builds(without), went);
+      const Result r = ran(lane(pair), {}, ranks);
       EXPECT_LT(builds(r), builds(without) / 4);
       EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9) << pair << ranks;
     }
@@ -95,26 +90,23 @@ TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
 TEST_F(Lists, AreBuiltWhereOthersMayRelyOnThem) {
   for (const char *other : {"compute neighbours all coord/atom cutoff 2.0\n",
                             "fix flow all ave/grid 10 10 100 48 20 1 vx\n"}) {
-    const Result r = run_text(lane(free_pairs + std::string(other)));
-    ASSERT_TRUE(succeeded(r));
+    const Result r = ran(lane(free_pairs + std::string(other)));
     EXPECT_GT(builds(r), 40) << other;
   }
 }
 
 TEST_F(Lists, AnObserverChangesNothing) {
-  const Result alone = run_text(lane(friction_pairs));
+  const Result alone = ran(lane(friction_pairs));
   const Result seen =
-      run_text(lane(friction_pairs + std::string("fix see all ave/time 1 10 20 c_thermo_temp\n")));
-  ASSERT_TRUE(succeeded(seen));
+      ran(lane(friction_pairs + std::string("fix see all ave/time 1 10 20 c_thermo_temp\n")));
   EXPECT_EQ(builds(seen), builds(alone));
   EXPECT_EQ(thermo_difference(alone, seen, {"KinEng", "v_x", "v_y"}), 0.0);
 }
 
 // Ghosts reach over several ranks here, but particles may change to the next rank only.
 TEST_F(Lists, ParticlesReachTheRankBesideTheirsAtMost) {
-  const Result exact = run_text(lane(free_pairs), {{"check", "no"}});
-  const Result r = run_text(lane(free_pairs), {{"cutoff", "40"}}, 4);
-  ASSERT_TRUE(succeeded(r));
+  const Result exact = ran(lane(free_pairs), {{"check", "no"}});
+  const Result r = ran(lane(free_pairs), {{"cutoff", "40"}}, 4);
   EXPECT_LT(builds(r), 40);
   EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9);
 }
@@ -124,19 +116,17 @@ TEST_F(Lists, OfTheRunBeforeAreUsedOn) {
   for (const char *pair : {free_pairs, friction_pairs}) {
     const std::string script =
         lane(pair, "run 1000\nwrite_coeff coefficients.txt\nrun 1000 pre no\n");
-    const Result exact = run_text(script, {{"check", "no"}});
-    const Result r = run_text(script);
-    ASSERT_TRUE(succeeded(r));
+    const Result exact = ran(script, {{"check", "no"}});
+    const Result r = ran(script);
     EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9) << pair;
   }
 }
 
 TEST_F(Lists, AreNewForEachSnapshotOfARerun) {
-  const Result r = run_text(
-      lane(free_pairs,
-           "dump snap all custom 500 snap.dump id x y\ndump_modify snap format float %.17g\n"
-           "run 3000\nundump snap\nrerun snap.dump dump x y\n"));
-  ASSERT_TRUE(succeeded(r));
+  const Result r =
+      ran(lane(free_pairs,
+               "dump snap all custom 500 snap.dump id x y\ndump_modify snap format float %.17g\n"
+               "run 3000\nundump snap\nrerun snap.dump dump x y\n"));
   ASSERT_EQ(r.thermo.size(), 14u) << r.output;
   for (std::size_t n = 0; n < 7; ++n)
     EXPECT_NEAR(r.thermo[n + 7].at("PotEng"), r.thermo[n].at("PotEng"), 1e-12) << n;
@@ -179,10 +169,9 @@ thermo_modify     norm no format float %.17g
 
 // In which cell the lowest disc is must not depend on rounding, for any position.
 TEST_F(Lists, TheLowestParticleMovesFar) {
-  const Result r = run_text("variable n loop 120\nlabel again\nclear\n" +
-                            field("-8 $(-14.0+0.05*v_n)", "15 8",
-                                  "comm_modify cutoff 7.0\nrun 100\nnext n\njump SELF again\n"));
-  ASSERT_TRUE(succeeded(r));
+  const Result r = ran("variable n loop 120\nlabel again\nclear\n" +
+                       field("-8 $(-14.0+0.05*v_n)", "15 8",
+                             "comm_modify cutoff 7.0\nrun 100\nnext n\njump SELF again\n"));
   EXPECT_EQ(r.thermo.size(), 240u);
   EXPECT_NEAR(r.last("v_bullet"), 0.9, 1e-12) << "the disc touches no other";
 }
@@ -190,18 +179,16 @@ TEST_F(Lists, TheLowestParticleMovesFar) {
 // Commands may move particles between two runs, also without a setup.
 TEST_F(Lists, ParticlesMovedAfterRunZeroAreFound) {
   const Result r =
-      run_text(field("-6 0", "-3.9 0",
-                     "velocity moving set 0 0 0\nrun 0\ndisplace_atoms bullet move 0.12 0 0\n"
-                     "run 20 pre no\n"));
-  ASSERT_TRUE(succeeded(r));
+      ran(field("-6 0", "-3.9 0",
+                "velocity moving set 0 0 0\nrun 0\ndisplace_atoms bullet move 0.12 0 0\n"
+                "run 20 pre no\n"));
   EXPECT_GT(r.last("PotEng"), 1e-4);
 }
 
 // A disc of the first rank, where many pairs are listed, hits one of the second, where there are no
 // others.
 TEST_F(Lists, ARankWithFewPairsSeesWhatComesFromBesideIt) {
-  const Result r = run_text(field("-1.5 0", "1.5 0", "comm_modify cutoff 7.0\nrun 1000\n"), {}, 2);
-  ASSERT_TRUE(succeeded(r));
+  const Result r = ran(field("-1.5 0", "1.5 0", "comm_modify cutoff 7.0\nrun 1000\n"), {}, 2);
   // equal masses exchange their velocities, but for the error of the time step
   EXPECT_NEAR(r.last("v_target"), 0.9, 1e-4);
   EXPECT_NEAR(r.last("v_bullet"), 0.0, 1e-4);

@@ -10,15 +10,12 @@ using Output = Fault;
 TEST_F(Output, RunAfterRunEqualsOneRun) {
   for (const char *mus : {"0.6", "0.8"}) {
     const std::string start = fault_read() + fault_shear("") + "thermo 200\n";
-    const Result one = run_text(start + "run 2000\n", {{"mus", mus}});
-    const Result many = run_text(start + "run 400\nrun 400\nrun 0\nrun 1200\n", {{"mus", mus}});
-    ASSERT_TRUE(succeeded(one));
-    ASSERT_TRUE(succeeded(many));
+    const Result one = ran(start + "run 2000\n", {{"mus", mus}});
+    const Result many = ran(start + "run 400\nrun 400\nrun 0\nrun 1200\n", {{"mus", mus}});
     const Result end_one = {0, "", {one.thermo.back()}, {}};
     const Result end_many = {0, "", {many.thermo.back()}, {}};
     EXPECT_EQ(one.last("Step"), many.last("Step"));
     const double off = thermo_difference(end_one, end_many, compared);
-    std::printf("mu_static %s: run after run differs by %.2g\n", mus, off);
     EXPECT_LT(off, 1e-9);
     EXPECT_EQ(one.last("c_events"), many.last("c_events"));
   }
@@ -33,10 +30,9 @@ TEST_F(Output, QuitWritesWhatIsHeldBack) {
             "catalogue ${prefix}.csv ruptures ${prefix}.ruptures unfinished yes interval "
             "200 slipping 0.1") +
         "thermo 1000\nrun 2950\n";
-    ASSERT_TRUE(succeeded(run_text(shear, {{"prefix", "end"}}, ranks)));
-    ASSERT_TRUE(succeeded(run_text(shear + "quit\n", {{"prefix", "quit"}}, ranks)));
-    ASSERT_TRUE(
-        succeeded(run_text(shear + "uncompute events\nquit\n", {{"prefix", "gone"}}, ranks)));
+    ran(shear, {{"prefix", "end"}}, ranks);
+    ran(shear + "quit\n", {{"prefix", "quit"}}, ranks);
+    ran(shear + "uncompute events\nquit\n", {{"prefix", "gone"}}, ranks);
     for (const char *file : {".csv", ".ruptures"}) {
       const std::string whole = read_file(path(std::string("end") + file));
       EXPECT_EQ(read_file(path(std::string("quit") + file)), whole) << file;
@@ -70,18 +66,10 @@ TEST_F(Output, PiecesEndWithAFixHalt) {
 TEST_F(Output, RestartFileBetweenRunsChangesNothing) {
   for (int ranks : {1, 2, 4}) {
     const std::string start = fault_read() + fault_shear("") + "thermo 500\nrun 2000\n";
-    const Result without = run_text(start + "run 2000\n", {}, ranks);
-    const Result with = run_text(start + "write_restart between.restart\nrun 2000\n", {}, ranks);
-    const Result resumed = run_text(
-        "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode single "
-        "cutoff 3.6\n"
-        "read_restart between.restart\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check "
-        "yes\n" +
-            fault_shear("") + "thermo 500\nrun 2000\n",
-        {}, ranks);
-    ASSERT_TRUE(succeeded(without));
-    ASSERT_TRUE(succeeded(with));
-    ASSERT_TRUE(succeeded(resumed));
+    const Result without = ran(start + "run 2000\n", {}, ranks);
+    const Result with = ran(start + "write_restart between.restart\nrun 2000\n", {}, ranks);
+    const Result resumed = ran(
+        fault_restart("between.restart") + fault_shear("") + "thermo 500\nrun 2000\n", {}, ranks);
     EXPECT_LT(thermo_difference(without, with, compared), 1e-9) << ranks << " ranks";
     Result second = without;
     second.thermo.erase(second.thermo.begin(), second.thermo.end() - 5);
@@ -100,8 +88,7 @@ run               0
 )";
   for (const char *newton : {"on", "off"}) {
     const Result before =
-        run_text(fault_read() + energies + "write_data again.data\n", {{"newton", newton}});
-    ASSERT_TRUE(succeeded(before));
+        ran(fault_read() + energies + "write_data again.data\n", {{"newton", newton}});
     const std::string again = fault_start() + R"(
 bond_style        lsm/linked
 pair_style        lsm/friction
@@ -109,8 +96,7 @@ read_data         again.data
 pair_coeff        * * off
 pair_coeff        3 4 1.0 1.0 0.6
 )" + fault_groups() + energies;
-    const Result after = run_text(again, {{"newton", newton}}, 2);
-    ASSERT_TRUE(succeeded(after));
+    const Result after = ran(again, {{"newton", newton}}, 2);
     EXPECT_GT(before.last("c_events[6]"), 0.0);
     EXPECT_GT(before.last("c_events[7]"), 0.0);
     EXPECT_LT(thermo_difference(
@@ -133,15 +119,13 @@ thermo_modify     norm no format float %.17g
 thermo            500
 run               1000
 )";
-  for (int ranks : {1, 2})
-    for (const char *newton : {"on", "off"}) {
-      const Result r = run_text(script, {{"newton", newton}}, ranks);
-      ASSERT_TRUE(succeeded(r));
-      const double link = r.last("c_events[6]");
-      const double contact = r.last("c_events[7]") + r.last("c_events[8]");
-      EXPECT_GT(r.last("c_events[8]"), 0.0);
-      EXPECT_NEAR(r.last("c_link_sum"), link, 1e-10 * link);
-      EXPECT_NEAR(r.last("c_contact_sum"), contact, 1e-10 * contact);
-      EXPECT_NEAR(r.last("v_pe"), link + contact, 1e-10 * (link + contact));
-    }
+  for (const auto &[ranks, newton] : {std::pair(1, "on"), {2, "off"}}) {
+    const Result r = ran(script, {{"newton", newton}}, ranks);
+    const double link = r.last("c_events[6]");
+    const double contact = r.last("c_events[7]") + r.last("c_events[8]");
+    EXPECT_GT(r.last("c_events[8]"), 0.0);
+    EXPECT_NEAR(r.last("c_link_sum"), link, 1e-10 * link);
+    EXPECT_NEAR(r.last("c_contact_sum"), contact, 1e-10 * contact);
+    EXPECT_NEAR(r.last("v_pe"), link + contact, 1e-10 * (link + contact));
+  }
 }

@@ -75,7 +75,7 @@ TEST_F(Plane, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
   for (const char *newton : {"off", "on"})
     for (int ranks : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, newton " + newton);
-      ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
+      ran(script, {{"name", "moved"}, {"newton", newton}}, ranks);
       const auto catalogue = unit::read_catalogue<LSM::PlaneRupture>(path("moved.csv"));
       EXPECT_TRUE(catalogue.info.has("z_begin"));
       const auto drops = unit::read_catalogue<LSM::Drop>(path("moved.drops"));
@@ -168,8 +168,8 @@ TEST_F(Plane, RunsGoOnByteForByte) {
       return upper_and_lower("") + pushed() + sliding(prefix) + "run 34\nwrite_restart " + prefix +
              ".restart\nrun " + std::to_string(more) + "\n";
     };
-    ASSERT_TRUE(succeeded(run_text(first(whole, 266), {}, ranks)));
-    ASSERT_TRUE(succeeded(run_text(first(part, 100), {}, ranks)));
+    ran(first(whole, 266), {}, ranks);
+    ran(first(part, 100), {}, ranks);
     const std::string again =
         "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode single "
         "cutoff 4.5\nread_restart " +
@@ -177,7 +177,7 @@ TEST_F(Plane, RunsGoOnByteForByte) {
         ".restart\nneighbor 0.4 bin\nneigh_modify delay 0 every 1 check yes\n"
         "thermo 1000\n" +
         sliding(part) + "run 266\n";
-    ASSERT_TRUE(succeeded(run_text(again, {}, ranks)));
+    ran(again, {}, ranks);
     for (const char *ending : {".csv", ".slip", ".pe", ".drops"})
       EXPECT_EQ(read_file(path(whole + ending)), read_file(path(part + ending))) << ending;
     const auto found = unit::read_catalogue<LSM::PlaneRupture>(path(whole + ".csv")).events;
@@ -206,6 +206,6 @@ TEST_F(Plane, OneLineOfError) {
        {"the box along z was -12 to 0 when it began and is -12 to 1 now"}}};
   for (const auto &one : cases) {
     SCOPED_TRACE(one.lines);
-    EXPECT_TRUE(failed_with(run_text(upper_and_lower(one.lines)), one.parts));
+    refused(one.parts, upper_and_lower(one.lines));
   }
 }

@@ -162,35 +162,6 @@ TEST(Sequences, MainShocksByHand) {
   EXPECT_THROW(stack_sequences(table.events, rule), std::invalid_argument);
 }
 
-TEST(Sequences, EventsBeforeMainShocksAreThoseAfterThemInReverse) {
-  // That at 70 begins before the window and ends in it, 15 before the main shock.
-  const std::vector<double> starts = {0, 50, 70, 90, 98, 108, 140, 300},
-                            lasting = {0, 29, 15, 3, 4, 12, 5, 0}, sizes = {1, 2, 1, 3, 1, 1, 2, 1};
-  std::vector<double> reversed_starts, reversed_lasting, reversed_sizes;
-  for (std::size_t i = starts.size(); i-- > 0;) {
-    reversed_starts.push_back(300 - starts[i] - lasting[i]);
-    reversed_lasting.push_back(lasting[i]);
-    reversed_sizes.push_back(sizes[i]);
-  }
-  SequenceRule rule;
-  rule.main_size = 50;
-  rule.least_size = 1;
-  rule.window = 20;
-  auto with_main = [&](std::vector<double> start, std::vector<double> length,
-                       std::vector<double> size, double at, std::size_t place) {
-    start.insert(start.begin() + static_cast<std::ptrdiff_t>(place), at);
-    length.insert(length.begin() + static_cast<std::ptrdiff_t>(place), 5.0);
-    size.insert(size.begin() + static_cast<std::ptrdiff_t>(place), 50.0);
-    return stack_sequences(events(start, length, size).events, rule);
-  };
-  const Sequences s = with_main(starts, lasting, sizes, 100, 5);
-  const Sequences reversed = with_main(reversed_starts, reversed_lasting, reversed_sizes, 195, 3);
-  EXPECT_EQ(s.before, (std::vector<double>{7, 15}));
-  EXPECT_EQ(s.times, (std::vector<double>{3}));
-  EXPECT_EQ(reversed.times, s.before);
-  EXPECT_EQ(reversed.before, s.times);
-}
-
 TEST(Sequences, BeforeMainShocksByHand) {
   // The main shock is at 100; the event at 99 has not ended then, 97 is too small, 79 is too early.
   const EventTable table =
@@ -386,47 +357,6 @@ TEST(Aftershocks, ShareOfPoissonCatalogues) {
     if (a.p <= 0.5) ++low;
   }
   expect_binomial(low, trials, 0.5, "p of at most 0.5");
-}
-
-TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
-  // A main shock every 100 time units, and 60 events after it with p = 2, c = 1.
-  EventTable clustered = poisson(3000, 1.0, 77);
-  const Rng rng = generator(5);
-  std::vector<std::pair<double, double>> rows;
-  for (const EventSummary &event : clustered.events)
-    rows.emplace_back(event.t_start, std::min(event.size, 100.0));
-  for (int main = 0; main < 29; ++main) {
-    const double time = 50.0 + 100.0 * main;
-    rows.emplace_back(time, 1e4);
-    for (int k = 0; k < 60; ++k)
-      rows.emplace_back(time + 1.0 / gsl_ran_flat(rng.get(), 0.0, 1.0) - 1.0, 1.0);
-  }
-  std::sort(rows.begin(), rows.end());
-  SequenceRule rule;
-  rule.main_size = 1e4;
-  rule.least_size = 1.0;
-  rule.window = 40.0;
-  std::vector<double> starts, sizes;
-  for (const auto &[time, size] : rows) {
-    starts.push_back(time);
-    sizes.push_back(size);
-  }
-  clustered.events = events_of(starts, sizes);
-  const Aftershocks a = aftershocks_of(clustered, rule, std::nan(""), 1.6, 19, 1);
-  EXPECT_EQ(a.sequences.main_shocks, 29);
-  ASSERT_FALSE(a.fit.degenerate) << a.fit.why;
-  EXPECT_NEAR(a.fit.p.value, 2.0, 4.0 * a.fit.p.error);
-  EXPECT_NEAR(a.fit.c.value, 1.0, 4.0 * a.fit.c.error);
-  EXPECT_LT(a.fit.p.error, 0.3);
-  EXPECT_EQ(a.p, 0.05);
-  ASSERT_GT(a.bins.size(), 5u);
-  // The rate in a bin of few events scatters too much for a test.
-  const auto full = std::find_if(a.bins.begin(), a.bins.end(),
-                                 [](const RateBin &bin) { return bin.count >= 20; });
-  ASSERT_NE(full, a.bins.end());
-  const RateBin &early = *full, &late = a.bins.back();
-  EXPECT_GT(early.rate, early.poisson + 5.0 * early.scatter);
-  EXPECT_NEAR(late.rate, a.fit.rate(late.centre), 4.0 * late.error + 0.1 * late.rate);
 }
 
 }  // namespace

@@ -80,16 +80,6 @@ EarthquakeList read(const std::string &content, bool lenient = false) {
   return read_earthquakes(bytes, detect_format(content), lenient);
 }
 
-TEST(Earthquakes, FormatsAreDetected) {
-  EXPECT_EQ(detect_format(csv), "csv");
-  EXPECT_EQ(detect_format(scedc), "scedc");
-  EXPECT_EQ(detect_format(zmap), "zmap");
-  EXPECT_EQ(detect_format(quakeml), "quakeml");
-  EXPECT_EQ(detect_format("# lsm-catalogue 1\n# model = lsm\n"), "models");
-  EXPECT_EQ(detect_format(""), "models");
-  EXPECT_EQ(detect_format("a,b\n1,2\n"), "models");
-}
-
 TEST(Earthquakes, AllFormatsHoldTheSameEvents) {
   const double seconds = 86400.0, day = 8779.0;  // 1994-01-14, days after 1970-01-01
   for (const std::string &content : {csv, scedc, zmap, quakeml}) {
@@ -164,12 +154,6 @@ TEST(Earthquakes, WhatCannotBeReadIsNamed) {
   EXPECT_EQ(list.events.size(), 3u);
   EXPECT_EQ(list.bad_lines, 2);
   EXPECT_TRUE(contains(list.first_problem, "file:6: 1 fields, expected 11"));
-}
-
-TEST(Earthquakes, EventsWithoutMagnitudeAreCounted) {
-  const EarthquakeList list = read("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,\n");
-  EXPECT_TRUE(list.events.empty());
-  EXPECT_EQ(list.without_magnitude, 1);
 }
 
 // A type may be the type of the magnitude (ISC), a code, or unknown: only what is known to be

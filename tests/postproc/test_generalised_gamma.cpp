@@ -99,10 +99,6 @@ double log_likelihood(const std::vector<double> &values, const Truth &t, double 
   return sum;
 }
 
-double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit) {
-  return fit.C * std::pow(theta, fit.gamma - 1.0) * std::exp(-std::pow(theta, fit.delta) / fit.B);
-}
-
 TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
   Source source(1);
   for (double lo : {0.0, 0.05}) {
@@ -132,44 +128,6 @@ TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
       }
     }
   }
-}
-
-TEST(GeneralisedGamma, DensityIntegratesToOne) {
-  Source source(2);
-  for (double lo : {0.0, 0.02, 0.5}) {
-    const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(20000, corral, lo), lo);
-    ASSERT_FALSE(fit.degenerate) << fit.why;
-    double integral = 0.0;
-    const double first = lo > 0.0 ? std::log(lo) : -80.0, last = std::log(200.0);
-    constexpr int steps = 200000;
-    for (int i = 0; i < steps; ++i) {
-      const double theta = std::exp(first + (last - first) * (i + 0.5) / steps);
-      integral += generalised_gamma_density(theta, fit) * theta * (last - first) / steps;
-    }
-    EXPECT_NEAR(integral, 1.0, 1e-6);
-  }
-}
-
-TEST(GeneralisedGamma, CorralsLawIsRecovered) {
-  Source source(3);
-  const auto values = source.sample(20000, corral);
-  const auto check = [](const GeneralisedGammaFit &fit, const std::string &what) {
-    ASSERT_FALSE(fit.degenerate) << what << fit.why;
-    EXPECT_NEAR(fit.gamma, corral.gamma, 3.0 * fit.se_gamma) << what;
-    EXPECT_NEAR(fit.delta, corral.delta, 3.0 * fit.se_delta) << what;
-    EXPECT_NEAR(fit.B, corral.B, 3.0 * fit.se_B) << what;
-    EXPECT_NEAR(fit.C, corral.c(), 3.0 * fit.se_C) << what;
-    EXPECT_LT(fit.se_gamma, 0.02) << what;
-    EXPECT_LT(fit.se_delta, 0.04) << what;
-  };
-  const GeneralisedGammaFit likelihood = fit_maximum_likelihood(values);
-  check(likelihood, "maximum likelihood");
-  EXPECT_GT(p_value(likelihood, values, 20, 1), 0.05);
-  const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values));
-  check(squares, "least squares");
-  EXPECT_NEAR(squares.chi2, squares.dof, 4.0 * std::sqrt(2.0 * squares.dof));
-  check(fit_maximum_likelihood(values, 0.0, 1.0), "maximum likelihood, delta = 1");
-  check(fit_least_squares(log_histogram(values), 1.0), "least squares, delta = 1");
 }
 
 TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
@@ -283,28 +241,6 @@ TEST(GeneralisedGamma, ErrorsComeFromTheObservedInformation) {
   EXPECT_NEAR(fit.se_gamma / std::sqrt(minor(0, 0) / determinant), 1.0, 0.01);
   EXPECT_NEAR(fit.se_delta / std::sqrt(minor(1, 1) / determinant), 1.0, 0.01);
   EXPECT_NEAR(fit.se_B / std::sqrt(minor(2, 2) / determinant), 1.0, 0.01);
-}
-
-TEST(GeneralisedGamma, UnitOfTimeDoesNotMatter) {
-  Source source(7);
-  auto values = source.sample(5000, corral);
-  for (const double lo : {0.0, 0.01}) {
-    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo);
-    const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values));
-    std::vector<double> scaled = values;
-    for (double &value : scaled) value *= 1000.0;
-    const GeneralisedGammaFit other = fit_maximum_likelihood(scaled, 1000.0 * lo);
-    // The bins are the same, shifted by 30.
-    const GeneralisedGammaFit other_squares = fit_least_squares(log_histogram(scaled));
-    for (const auto &[a, b] : {std::pair{fit, other}, std::pair{squares, other_squares}}) {
-      ASSERT_FALSE(a.degenerate || b.degenerate) << a.why << b.why;
-      EXPECT_NEAR(b.gamma, a.gamma, 1e-5);
-      EXPECT_NEAR(b.delta, a.delta, 1e-5);
-      EXPECT_NEAR(b.se_gamma, a.se_gamma, 1e-5);
-      EXPECT_NEAR(b.B / std::pow(1000.0, b.delta) / a.B, 1.0, 1e-4);
-      EXPECT_NEAR(b.C * std::pow(1000.0, b.gamma) / a.C, 1.0, 1e-4);
-    }
-  }
 }
 
 void expect_degenerate(const GeneralisedGammaFit &fit, const std::string &why) {
@@ -451,33 +387,6 @@ TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) 
   const Rejections normal = rejections(100, 0.0, 1.0, [&] { return source.log_normal(300); });
   EXPECT_GT(normal.by_monte_carlo, 95);
   EXPECT_LT(normal.by_table, 85);
-}
-
-// The test of large samples uses counts in cells: its p is as reliable as that from single values,
-// and its power no less.
-TEST(GoodnessOfFit, ManyValues) {
-  Source source(77);
-  const std::size_t n = 10000;
-  ASSERT_GT(n, largest_exact_sample);
-  int below_tenth = 0, below_half = 0;
-  constexpr int trials = 150;
-  for (int i = 0; i < trials; ++i) {
-    // Only now and then is delta free, or the sample truncated, as these cases take longer.
-    const bool free = i % 10 == 0, cut = i % 10 == 1;
-    const std::vector<double> values = source.sample(n, corral, cut ? 0.3 : 0.0);
-    const GeneralisedGammaFit fit =
-        fit_maximum_likelihood(values, cut ? 0.3 : 0.0, held_at_one(!free));
-    ASSERT_FALSE(fit.degenerate) << fit.why;
-    const double p = p_value(fit, values, 39, static_cast<std::uint64_t>(i));
-    below_tenth += p <= 0.1;
-    below_half += p <= 0.5;
-  }
-  expect_binomial(below_tenth, trials, 0.1, "0.1");
-  expect_binomial(below_half, trials, 0.5, "0.5");
-  // A twentieth of the values is multiplied by three.
-  std::vector<double> mixed = source.sample(n - n / 20, corral);
-  for (const double theta : source.sample(n / 20, corral)) mixed.push_back(3.0 * theta);
-  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, 1.0), mixed, 99, 1), 0.03);
 }
 
 TEST(GoodnessOfFit, NumberOfCoresDoesNotMatter) {

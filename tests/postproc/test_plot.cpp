@@ -163,14 +163,6 @@ TEST_F(Plot, WithoutGnuplotTableAndScriptAreThere) {
   EXPECT_FALSE(std::filesystem::exists(options.output + ".png"));
 }
 
-TEST_F(Plot, NoPictureNeedsNoGnuplot) {
-  const EmptyPath nothing;
-  PictureOptions options = output("none");
-  options.no_picture = true;
-  EXPECT_NO_THROW(make(figure("t"), options));
-  EXPECT_TRUE(std::filesystem::exists(options.output + ".gp"));
-}
-
 TEST_F(Plot, FailureIsReportedAndLeavesNoPicture) {
   const PictureOptions options = output("bad");
   Figure picture = figure("t");
@@ -180,60 +172,6 @@ TEST_F(Plot, FailureIsReportedAndLeavesNoPicture) {
   EXPECT_TRUE(contains(message, "no-such-file.csv"));
   EXPECT_FALSE(std::filesystem::exists(options.output + ".png"));
   EXPECT_FALSE(std::filesystem::exists(options.output + ".svg"));
-}
-
-TEST_F(Plot, FolderAsOutputIsRefused) {
-  const std::string message = message_of<LSM::FileError>([&] { make(figure("t"), output("x/")); });
-  EXPECT_TRUE(contains(message, "expected a file name"));
-  EXPECT_FALSE(std::filesystem::exists(path("x")));
-}
-
-TEST_F(Plot, FilesAppearWholeOrNotAtAll) {
-  const std::string name = path("folder/text");
-  write_file(name, "old");
-  {
-    LSM::files::OutputFile file;
-    file.create(name, "half of the n", true);
-    EXPECT_EQ(slurp(name), "old");
-  }
-  EXPECT_EQ(slurp(name), "old");
-  EXPECT_FALSE(std::filesystem::exists(name + ".new"));
-  EXPECT_TRUE(
-      contains(message_of<LSM::FileError>([&] { claim_output(name, false); }), "--overwrite"));
-  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { write_file(path("folder/"), "x"); }),
-                       "is a directory, expected a file name"));
-  // A link keeps pointing to its file; a device must not be replaced by a file.
-  std::filesystem::create_symlink(name, path("link"));
-  write_file(path("link"), "new");
-  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
-  EXPECT_EQ(slurp(name), "new");
-  EXPECT_NO_THROW(write_file("/dev/null", "x"));
-}
-
-TEST_F(Plot, InputsAreNotReplaced) {
-  const std::string input = path("base.svg");
-  unit::spill(input, "read");
-  PictureOptions options = output("base");
-  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] {
-                         options.check({path("x"), input});
-                       }),
-                       "base.svg: is read by this command"));
-  EXPECT_NO_THROW(options.check({path("x")}));
-  std::filesystem::create_symlink(input, path("other.fits.csv"));
-  options.output = path("other");
-  EXPECT_NO_THROW(options.check({input}));
-  EXPECT_THROW(options.check({input}, {".fits.csv"}), LSM::FileError);
-}
-
-TEST_F(Plot, TableQuotesTextAndKeepsDigits) {
-  Table table({"label", "value", "count"});
-  table.comment("two\nlines");
-  table.add("a, \"b\"").add(0.1).add(std::int64_t{3}).end_row();
-  table.add("plain").add(std::numeric_limits<double>::quiet_NaN()).add(std::int64_t{0}).end_row();
-  EXPECT_EQ(table.csv(),
-            "# two lines\nlabel,value,count\n\"a, \"\"b\"\"\",0.10000000000000001,3\nplain,,0\n");
-  table.add("short");
-  EXPECT_THROW(table.end_row(), std::logic_error);
 }
 
 TEST_F(Plot, TableDoesNotDependOnTheLocale) {

@@ -192,17 +192,6 @@ def test_series(do, no):
     no("columns", "series pe.bin --columns 2 -o x")
 
 
-def test_series_pictures(do, gnuplot):
-    series("pe.bin")
-    do("series pe.bin -o drawn --from 30 --to 60")
-    for name in "drawn.png", "drawn.svg", "drawn.gp", "drawn.csv", "drawn-events.csv":
-        assert os.path.getsize(name) > 0, name
-    assert "</svg>" in Path("drawn.svg").read_text(), "the SVG is not whole"
-    # A window without events can be drawn, too.
-    do("series pe.bin -o quiet --from 0 --to 1")
-    assert os.path.getsize("quiet.svg") > 0
-
-
 def piped(do, before, command, *after):
     """do() with /dev/fd/N, a pipe from a shell command, as one of the words."""
     # The child is kept until do() has ended, as Python closes the pipe of an object without references.
@@ -307,45 +296,18 @@ def gutenberg_richter(path="gr.csv"):
                     pe_end=[1] * 2000, slip_moment=10**m)
 
 
-def b_values(path="m.bvalues.csv"):
-    found = [row for row in table(path) if row["model"] == "lsm"]
-    assert len(found) == 1, found
-    return [number(value) for value in found[0].values()]
-
-
-def test_magnitudes(do, no):
+def test_magnitudes_of_moments(do, no):
+    """M = 2/3 of the magnitudes above -2 with b = 1."""
     gutenberg_richter()
-    first = do("magnitudes gr.csv -o m --no-picture")
-    found = b_values()
-    assert found[3] == 2000 and found[1] == -2 and 0.99 < found[4] < 1.01 and 0.018 < found[5] < 0.026, found
-    for said in (r"M = 0.6667 log10\(size\) \+ 0, bins of 0 \(0: none\)", "completeness in the header of gr.csv",
-                 "exponent of the sizes 1 \\+ 0.6667 b 1.66"):
-        first.printed(said)
-    # The exported table gives the same b by the textbook formula, with and without bins.
-    for width in 0, 0.1:
-        do("magnitudes gr.csv -o m --no-picture --complete-from -1.5 --magnitude-bin", width)
-        do("export gr.csv -o table.csv --overwrite --magnitude-bin", width)
-        m = np.array([float(row["magnitude"]) for row in table("table.csv")])
-        m = m[m >= -1.5 - width / 2 - 1e-9]
-        mean = np.mean(m + 1.5)
-        wanted = math.log(1 + width / mean) / (width * math.log(10)) if width else 1 / (mean * math.log(10))
-        assert len(m) == b_values()[3] and b_values()[4] == pytest.approx(wanted, rel=1e-12), width
-    # The completeness is given, determined from the data, or that of the header.
-    do("magnitudes gr.csv -o m --no-picture --complete-from curvature")
-    assert -1.91 < b_values()[1] < -1.69 and b_values()[1] == b_values()[2]
-    do("magnitudes gr.csv -o m --no-picture --threshold 0.01")
-    assert -1.3334 < b_values()[1] < -1.3333
-    # The magnitude may be that of the moment: M = 2/3 of the magnitudes above -2 with b = 1.
+    do("magnitudes gr.csv -o m --no-picture").printed("completeness in the header of gr.csv")
     do("magnitudes gr.csv -o m --no-picture --magnitude-of moment --complete-from -1.33333333333").printed(r"M = 0.6667 log10\(slip_moment\) \+ 0")
-    assert 0.99 < b_values()[4] / 1.5 < 1.01
+    assert float(table("m.bvalues.csv")[0]["b"]) / 1.5 == pytest.approx(1, abs=0.01)
     assert sum(row[0] for row in numbers_of("m.csv", 3)) == 2000
     no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
     no("complete-from 'nowhere', expected 'header', 'curvature' or a magnitude", "magnitudes gr.csv -o x --complete-from nowhere")
-    no("magnitude-bin '-1', expected a width of 0 or more", "magnitudes gr.csv -o x --magnitude-bin -1")
     without_column("gr.csv", "plain.csv")
-    no("plain.csv: has no column slip_moment, expected one for --magnitude-of moment",
-       "magnitudes plain.csv -o x --magnitude-of moment --complete-from -2")
-    no("plain.csv: has no column slip_moment", "export plain.csv -o x.csv --magnitude-of moment")
+    for command in "magnitudes plain.csv -o x --complete-from -2", "export plain.csv -o x.csv":
+        no("plain.csv: has no column slip_moment", f"{command} --magnitude-of moment")
 
 
 def number(cell):

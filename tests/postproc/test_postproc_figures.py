@@ -96,21 +96,6 @@ def test_intervals(do, no):
     no("expected 'free' or a positive number", "intervals a.csv --delta x -o x")
 
 
-def test_exponential_intervals(do):
-    """gamma = delta = 1, B = 7, C = 1 / 7."""
-    n = 4000
-    times = np.cumsum(-7 * np.log(1 - ((np.arange(n) * 7919) % n + 0.5) / n))
-    fault("e.csv", [1] * n, times=np.concatenate([[0], times[:-1]]))
-    do("intervals e.csv -o x --delta 1").printed("maximum likelihood, .* 1 no$")
-    ours = [[float_or_text(cell) for cell in re.sub('"[^"]*"', "", row).split(",")] for row in rows("x.table1.csv") if row.startswith("ours")]
-    assert len(ours) == 2
-    for row in ours:
-        assert row[11] == "" or row[11] <= 3
-        assert [row[3], row[7] / 7, row[9] * 7] == pytest.approx([1, 1, 1], abs=0.03)
-    tested = [row for row in ours if row[12] != ""]
-    assert len(tested) == 1 and tested[0][13:16] == [1, 0, "no"]
-
-
 def exponents(path):
     return [[float_or_text(cell) for cell in row.split(",")] for row in rows(path) if row.startswith("lsm")]
 
@@ -147,42 +132,6 @@ def test_fit(do, no):
                     event_id=[row["event_id"] for row in large])
     do("fit picked.csv --range 1e-3:1 --replicas 0 --no-comparison -o m --no-picture")
     said("m.fits.csv", "^lsm,0.01,1,")
-
-
-def test_completeness(do, no):
-    sizes = power_law(1, 1e-3, 1, 1000)
-    fault("plain.csv", sizes)
-    fault("known.csv", sizes, completeness=0.01)
-    fault("long.csv", sizes, 240)
-    slider("s.csv", power_law(1, 1e-3, 1, 1000))
-    above = int(np.sum(sizes >= 0.01))
-    assert 600 < above < 700
-    # Without a completeness the threshold is that of the paper.
-    do("histograms plain.csv -o p --no-picture").printed("smallest size, fault: 0.0001, that of the paper")
-    assert count("p.csv", 1) == 1000
-    # A completeness holds for all faults, but not for block-sliders.
-    both = ("smallest size, fault: 0.01, completeness in the header of known.csv", "smallest size, block-slider: 0.0001, that of the paper")
-    printed = do("histograms long.csv known.csv s.csv -o h --no-picture")
-    for pattern in both:
-        printed.printed(pattern)
-    said("h.csv", *both)
-    assert [count("h.csv", n) for n in (1, 2, 3)] == [above, above, 1000]
-    # A given value takes precedence.
-    do("histograms known.csv -o h --no-picture --threshold 0.001").printed("0.001, as given")
-    assert count("h.csv", 1) == 1000
-    do("intervals known.csv -o i --no-picture --replicas 0").printed(f"sizes >= 0.01, completeness in the header of known.csv {above - 1} ")
-    said("i.csv", "^# sizes >= 0.01, completeness in the header")
-    said("i.table1.csv", f"^ours,0.01,{above - 1},")
-    do("intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4").printed("sizes >= 0.0001, as given 999 ")
-    fitted = do("fit known.csv --replicas 0 -o f --no-picture")
-    fitted.printed("smallest size, fault: 0.01, completeness in the header")
-    assert all(row[1] >= 0.01 for row in exponents("f.fits.csv")), "the fit begins too low"
-    assert "may depend on the time step" not in fitted.out, "a note without a reason"
-    do("fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture").printed("below its completeness of 0.01")
-    said("f.fits.csv", "^lsm,0.001,1,1000,")
-    fault("bad.csv", sizes, completeness="small")
-    for command in "histograms", "intervals", "fit":
-        no("bad.csv:3: completeness is 'small', expected a finite size of at least 0", command + " bad.csv -o x")
 
 
 def test_seismology(do, no):

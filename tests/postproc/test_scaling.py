@@ -2,20 +2,19 @@
 """lsm.scaling: characteristic sizes and their errors, block lengths, laws with known answers, and the program."""
 import json
 import math
-import re
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import edit, power_law, rows, write_catalogue
+from data_files import power_law, rows, write_catalogue
 from figure_data import fault, pictures, slider
 from programs import SOURCE, Program, refused, run
 
 sys.path.insert(0, str(SOURCE / "python"))
 import lsm.scaling as scaling  # noqa: E402
 from lsm.drawing import axis  # noqa: E402
-from lsm.scaling import NONE, POWER_LAW, UNDECIDED, Point, block_length, characteristic_size, error_scale, fit_scaling  # noqa: E402
+from lsm.scaling import NONE, POWER_LAW, Point, block_length, characteristic_size, error_scale, fit_scaling  # noqa: E402
 
 SCRIPT = Program("lsm.scaling", sys.executable, "-m", "lsm.scaling", env={"PYTHONPATH": str(SOURCE / "python"), "LC_ALL": "C.UTF-8"})
 DRAWN = ("csv", "png", "svg")
@@ -245,14 +244,6 @@ def test_too_few_points():
     assert fit_scaling([point(120, 2, 0.1)] * 5) == {"why": "all models have the same length"}
 
 
-def test_texts():
-    flat = fit_scaling(points_of(lambda length: 2.0, LENGTHS))
-    assert flat["preferred"] == NONE and "shows no significant dependence on the length (s* ~ L^D with D = " in scaling.verdict(flat)
-    falling = scaling.verdict(fit_scaling(points_of(lambda length: 1 / length, LENGTHS)))
-    assert "shrinks with the length, which no finite-size effect explains (" in falling
-    assert scaling.verdict({"why": "x"}) == "degenerate: x" and "may or may not" in scaling.verdict({**flat, "preferred": UNDECIDED})
-
-
 def test_ticks_of_near_ends():
     """Powers of ten alone would be too few."""
     assert "set ytics (0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 1.8, 2)\nset yrange [0.7:2]\n" in axis("y", "s", 0.72, 1.9, True)
@@ -303,12 +294,6 @@ def test_program(growing):
         error, independent, block = (float(row.split(",")[k]) for k in (4, 6, 7))
         assert block == 0 and 0.8 * independent < error < 1.2 * independent, row
     refused(SCRIPT, "g100.csv --block 20000 -o x", "block of 20000, expected 0 or .* to half of the catalogue")
-
-
-def test_program_with_other_growth(growing):
-    # For growth that does not follow a power law, s* is 1, 1, 1, 1, 16.
-    edit("g1600.csv", "n3200.csv", ("# length = 1600", "# length = 3200"))
-    do(files("n", (100, 200, 400, 800, 3200)), "-o p --no-picture").printed("grows with the length, but not as a power law")
 
 
 def test_kinds_and_smallest_sizes():

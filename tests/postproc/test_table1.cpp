@@ -217,29 +217,6 @@ TEST(Table1, TimesFromStartToStartAboveTheThreshold) {
   EXPECT_EQ(inter_event_times(table, 2.0), std::vector<double>());
 }
 
-TEST(Table1, GammaTimesGiveTheirParameters) {
-  const double shape = 0.7, scale = 20.0;
-  IntervalSettings settings;
-  settings.deltas = {1.0};
-  settings.replicas = 0;
-  const auto curves = interval_curves({gamma_events(shape, scale, 20000)}, settings);
-  ASSERT_EQ(curves.size(), 1u);
-  EXPECT_EQ(curves[0].n, 20000);
-  EXPECT_NEAR(curves[0].mean, shape * scale, 5.0 * std::sqrt(shape) * scale / std::sqrt(20000.0));
-  const IntervalFit *const found = fit_by(curves, "maximum likelihood");
-  ASSERT_NE(found, nullptr);
-  const GeneralisedGammaFit &fit = found->fit;
-  ASSERT_EQ(fit.why, "");
-  EXPECT_NEAR(fit.gamma, shape, 4.0 * fit.se_gamma);
-  EXPECT_NEAR(fit.B, scale, 4.0 * fit.se_B);
-  EXPECT_NEAR(fit.C, 1.0 / (std::pow(scale, shape) * std::tgamma(shape)), 4.0 * fit.se_C);
-  EXPECT_LT(fit.se_gamma, 0.02);
-  EXPECT_EQ(fit.delta, 1.0);
-  EXPECT_TRUE(contains(table1(curves, false).csv(), "ours,0.0001," + std::to_string(fit.n) + "," +
-                                                        LSM::text::number(fit.gamma) + "," +
-                                                        LSM::text::number(fit.se_gamma) + ",1,0,"));
-}
-
 TEST(Table1, PoorFitsAreRejected) {
   IntervalSettings settings;
   settings.shortest = 0.0;
@@ -289,36 +266,6 @@ TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
   EXPECT_EQ(curves[0].sample.threshold.size, 0.5);
   EXPECT_EQ(curves[0].n, 2);
   EXPECT_EQ(curves[1].sample.threshold.size, 0.8);
-}
-
-TEST(Table1, CompletenessIsTheDefaultThreshold) {
-  EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
-  table.completeness = 0.3;
-  table.completeness_path = "a.csv";
-  IntervalSettings settings;
-  const auto curves = interval_curves({table}, settings);
-  ASSERT_EQ(curves.size(), 1u);
-  EXPECT_EQ(curves[0].sample.threshold.size, 0.3);
-  EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(text(curves[0].sample.threshold), "0.3, completeness in the header of a.csv");
-  settings.thresholds = {0.05};
-  EXPECT_EQ(interval_curves({table}, settings)[0].n, 3);
-  table.complete_from = 0.7;
-  EXPECT_EQ(text(interval_curves({table}, settings)[0].sample.threshold),
-            "0.7, where the catalogue begins");
-}
-
-TEST(Table1, RescaledTimesHaveMeanOne) {
-  IntervalSettings settings;
-  settings.shortest = 0.0;
-  settings.deltas = {1.0};
-  settings.rescale = true;
-  settings.replicas = 0;
-  const auto curves = interval_curves({gamma_events(0.7, 20.0, 20000)}, settings);
-  const IntervalFit *const found = fit_by(curves, "maximum likelihood");
-  ASSERT_NE(found, nullptr);
-  // The fitted mean gamma B of a gamma density is that of the sample.
-  EXPECT_NEAR(found->fit.gamma * found->fit.B, 1.0, 1e-5);
 }
 
 TEST(Table1, DegenerateFitsSayWhyAndShowNoNumbers) {

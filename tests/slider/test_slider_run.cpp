@@ -188,32 +188,5 @@ TEST(SliderRun, CentroidsAreOnTheRing) {
   }
 }
 
-TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {
-  // Because of chaos only the first events can be compared between schemes.
-  RunOptions o = options(6, 0.005, 0);
-  o.parameters.kl = 0.5;
-  o.parameters.velocity = 0.1;
-  o.steps = 6000;
-  o.picker.lambda = 0.9;
-  SwitchingChain reference(o.parameters, o.mu, Located::reference);
-  LSM::EventPicker picker(o.picker);
-  LSM::Event expected;
-  picker.push_change(0, 0.0, reference.pe(), 0.0, expected);
-  do {
-    reference.advance();
-    ASSERT_LE(reference.step(), o.steps);
-  } while (!picker.push_change(reference.step(), reference.time(), reference.pe(), reference.dpe(),
-                               expected));
-  for (Scheme scheme : {Scheme::printed, Scheme::verlet}) {
-    o.parameters.scheme = scheme;
-    o.catalogue = testing::TempDir() + "slider_first.csv";
-    run(o);
-    const auto found = unit::read_catalogue(o.catalogue);
-    ASSERT_GE(found.events.size(), 1U) << to_string(scheme);
-    EXPECT_NEAR(found.events[0].t_start, expected.t_start, 0.03) << to_string(scheme);
-    EXPECT_NEAR(found.events[0].size / expected.size, 1.0, 0.05) << to_string(scheme);
-  }
-}
-
 }  // namespace
 }  // namespace Slider

@@ -81,34 +81,6 @@ TEST(Ruptures, TwoApart) {
   EXPECT_NEAR(e.x_centroid, 6.0, 1e-14);
 }
 
-TEST(Ruptures, TwoThatMeetAreOne) {
-  const Found f = track({"#......",  //
-                         "##...#.",  //
-                         ".##.##.",  //
-                         "..###..",  //
-                         "......."},
-                        1);
-  ASSERT_EQ(f.ruptures.size(), 1U);
-  EXPECT_EQ(f.ruptures[0].step_start, 0);
-  EXPECT_EQ(f.ruptures[0].first, 0);
-  EXPECT_EQ(f.ruptures[0].step_end, 4);
-  EXPECT_EQ(f.ruptures[0].begin, 0);
-  EXPECT_EQ(f.ruptures[0].length, 6);
-  EXPECT_EQ(f.ruptures[0].size, 11.0);
-}
-
-TEST(Ruptures, OneThatSplitsStaysOneUntilBothEnd) {
-  const Found f = track({"...##...",  //
-                         "..#..#..",  //
-                         ".#....#.",  //
-                         "......#."},
-                        1);
-  ASSERT_EQ(f.ruptures.size(), 1U);
-  EXPECT_EQ(f.ruptures[0].step_end, 4);
-  EXPECT_EQ(f.ruptures[0].length, 6);
-  EXPECT_EQ(f.ruptures[0].size, 7.0);
-}
-
 TEST(Ruptures, AcrossTheSeam) {
   const Found f = track({"#.....",  //
                          "#....#",  //
@@ -145,20 +117,6 @@ TEST(Ruptures, APauseParts) {
   // A neighbour may be pushed over its limit by the last slide, so that one step is no pause.
   EXPECT_EQ(track({".#..", "..#.", "...#"}, 1).ruptures.size(), 1U);
   EXPECT_EQ(track({".#...", "...#."}, 1).ruptures.size(), 2U);
-}
-
-TEST(Ruptures, AStoppedBlockThatRejoinsIsCountedOnce) {
-  const Found f = track({"..##....",  //
-                         "...##...",  //
-                         "....##..",  //
-                         "..#..#..",  //
-                         "..##.#..",  //
-                         "...###.."},
-                        1);
-  ASSERT_EQ(f.ruptures.size(), 1U);
-  EXPECT_EQ(f.ruptures[0].begin, 2);
-  EXPECT_EQ(f.ruptures[0].length, 4);
-  EXPECT_EQ(f.ruptures[0].size, 14.0);
 }
 
 /// Finds ruptures by a search through all of space and time.
@@ -352,53 +310,6 @@ RunOptions options(const std::string &name, Events events) {
   o.x_centroid = o.rupture_length = true;
   o.overwrite = true;
   return o;
-}
-
-TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
-  // Both catalogues are of the same motion. An event of PE contains the slip of all ruptures within
-  // it, and at most that of all ruptures that overlap with it. The slip of events is sampled one
-  // step late, while ruptures are exact to the step.
-  RunOptions o = options("pe", Events::pe);
-  run(o);
-  const auto drops = unit::read_catalogue<LSM::Drop>(o.catalogue);
-  o = options("ruptures", Events::ruptures);
-  o.series = testing::TempDir() + "slider_ruptures.pe";
-  o.series_stride = 1;
-  run(o);
-  const auto ruptures = unit::read_catalogue<LSM::Rupture>(o.catalogue);
-  ASSERT_TRUE(ruptures.info.overlapping());
-  ASSERT_FALSE(drops.info.overlapping());
-  std::size_t large = 0, overlaps = 0;
-  double last_end = 0.0;
-  for (const LSM::Rupture &r : ruptures.events) last_end = std::max(last_end, r.t_end);
-  for (const LSM::Drop &drop : drops.events) {
-    if (drop.size < 10.0 || drop.t_start < 13000.0 || drop.t_end > last_end - 5000.0) continue;
-    ++large;
-    double within = 0.0, touching = 0.0, largest = 0.0;
-    for (const LSM::Rupture &r : ruptures.events) {
-      if (r.step_start > drop.step_end + 1 || r.step_end < drop.step_start) continue;
-      touching += r.slip_moment;
-      if (r.step_start > drop.step_start && r.step_end <= drop.step_end) within += r.slip_moment;
-      largest = std::max(largest, r.slip_moment);
-    }
-    EXPECT_LE(within, drop.slip_moment * (1.0 + 1e-9)) << "at " << drop.t_start;
-    EXPECT_GE(touching, drop.slip_moment * (1.0 - 1e-9)) << "at " << drop.t_start;
-    // In a chain as short as this one, a large event consists of one rupture.
-    EXPECT_GE(largest, 0.9 * drop.slip_moment) << "at " << drop.t_start;
-  }
-  EXPECT_GT(large, 5U);
-  // PE of the ruptures is that of the series, and at least one pair overlaps.
-  const std::vector<double> pe = pe_of(o.series);
-  ASSERT_EQ(pe.size(), 1000001U);
-  for (std::size_t k = 0; k < ruptures.events.size(); ++k) {
-    const LSM::Rupture &r = ruptures.events[k];
-    ASSERT_EQ(r.pe_start, pe[static_cast<std::size_t>(r.step_start)]);
-    ASSERT_EQ(r.pe_end, pe[static_cast<std::size_t>(r.step_end)]);
-    ASSERT_GT(r.size, 0.0);
-    ASSERT_GE(r.t_start, 12000.0);
-    if (k > 0 && r.t_start < ruptures.events[k - 1].t_end) ++overlaps;
-  }
-  EXPECT_GT(overlaps, 100U);
 }
 
 TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {

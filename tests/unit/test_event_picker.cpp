@@ -157,24 +157,10 @@ TEST(EventPicker, SeriesThatStartsWithADrop) {
   EXPECT_EQ(events[0].size, 3.0);
 }
 
-TEST(EventPicker, FirstSampleOnlySetsTheEnergy) {
-  EventPicker picker{PickerSettings()};
-  Event event;
-  EXPECT_FALSE(picker.push(0, 0.0, -1e6, event));
-  EXPECT_EQ(picker.rate(), 0.0);
-  EXPECT_FALSE(picker.in_event());
-}
-
 TEST(EventPicker, OpenEventAtTheEndIsNotReported) {
   EventPicker picker(settings(PickerReading::exponential, 0.5));
   EXPECT_TRUE(pick(picker, {0, 1, -5, -6}).empty());
   EXPECT_TRUE(picker.in_event());
-}
-
-TEST(EventPicker, ConstantEnergyIsNoEvent) {
-  EventPicker picker{PickerSettings()};
-  EXPECT_TRUE(pick(picker, std::vector<double>(1000, 3.5)).empty());
-  EXPECT_EQ(picker.rate(), 0.0);
 }
 
 // ---- readings ----
@@ -195,15 +181,6 @@ TEST(EventPicker, LiteralFollowsTheRawSignOnceItsMemoryIsGone) {
   EXPECT_GT(expected.size(), 2000U);
   expect_same(pick(literal, pe), expected);
   EXPECT_LT(pick(smooth, pe).size(), expected.size() / 10);
-}
-
-TEST(EventPicker, SmoothingJoinsWhatNoiseSplits) {
-  const std::vector<double> pe = stick_slip(5, 20000);
-  EventPicker raw(settings(PickerReading::exponential, 0.0));
-  EventPicker smooth(settings(PickerReading::exponential, 0.9));
-  const auto many = pick(raw, pe), few = pick(smooth, pe);
-  EXPECT_GT(few.size(), 20U);
-  EXPECT_LE(few.size(), many.size());
 }
 
 TEST(EventPicker, SizesArePositiveForAllReadings) {
@@ -227,18 +204,6 @@ TEST(EventPicker, SizesArePositiveForAllReadings) {
       }
     }
   }
-}
-
-TEST(EventPicker, NamesOfReadings) {
-  for (const char *name : {"exponential", "average", "literal"}) {
-    PickerReading reading = PickerReading::exponential;
-    ASSERT_TRUE(LSM::from_string(name, reading));
-    EXPECT_STREQ(LSM::to_string(reading), name);
-  }
-  PickerReading reading = PickerReading::literal;
-  EXPECT_FALSE(LSM::from_string("Exponential", reading));
-  EXPECT_FALSE(LSM::from_string("", reading));
-  EXPECT_EQ(reading, PickerReading::literal);
 }
 
 // ---- memory time ----
@@ -296,17 +261,6 @@ TEST(EventPicker, SuddenDropMustExceedTheLoadingOfOneMemory) {
       EXPECT_NEAR(events[0].size, drop - loading, 1e-9 * drop);
     }
   }
-}
-
-TEST(EventPicker, FixedLambdaDependsOnTheTimeStep) {
-  std::vector<double> ends;
-  for (double dt : {0.1, 0.01}) {
-    EventPicker picker(settings(PickerReading::exponential, 0.99));
-    const std::vector<Event> events = pick(picker, sampled_ramps(dt), dt);
-    ASSERT_LE(events.size(), 1U);
-    ends.push_back(events.empty() ? 80.0 : events[0].t_end);
-  }
-  EXPECT_GT(ends[0] - ends[1], 5.0);
 }
 
 TEST(EventPicker, LambdaFromMemoryTime) {
@@ -376,30 +330,6 @@ TEST(EventPicker, RefusesImpossibleStates) {
   state.rate = 1.0;  // an open event has A <= 0
   EXPECT_THROW(picker.set_state(state), std::invalid_argument);
   EXPECT_EQ(picker.state().samples, 0);
-}
-
-TEST(EventPicker, DecimatedSeriesKeepsItsSteps) {
-  const double dt = 0.01, memory = 2.0;
-  const int stride = 10;
-  const std::vector<double> pe = sampled_ramps(dt);
-  EventPicker every(settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, dt)));
-  EventPicker tenth(
-      settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, stride * dt)));
-  const std::vector<Event> fine = pick(every, pe, dt);
-  std::vector<Event> coarse;
-  Event event;
-  for (std::size_t i = 0; i < pe.size(); i += stride)
-    if (tenth.push(static_cast<std::int64_t>(i), static_cast<double>(i) * dt, pe[i], event))
-      coarse.push_back(event);
-  ASSERT_EQ(fine.size(), 1U);
-  ASSERT_EQ(coarse.size(), 1U);
-  EXPECT_EQ(coarse[0].step_start % stride, 0);
-  EXPECT_EQ(coarse[0].step_end % stride, 0);
-  EXPECT_EQ(coarse[0].t_start, static_cast<double>(coarse[0].step_start) * dt);
-  EXPECT_EQ(coarse[0].size, pe[static_cast<std::size_t>(coarse[0].step_start)] -
-                                pe[static_cast<std::size_t>(coarse[0].step_end)]);
-  EXPECT_LE(std::abs(coarse[0].step_start - fine[0].step_start), stride);
-  EXPECT_LE(std::abs(coarse[0].step_end - fine[0].step_end), stride);
 }
 
 TEST(EventPicker, GivenChangesPickTheSame) {

@@ -265,56 +265,6 @@ TEST_F(EventStreamFiles, FrictionOfADropIsThatOfItsSteps) {
   }
 }
 
-// Drops, ruptures and history of one run agree: the slips of drops and of the times between them,
-// and those of ruptures and of places that slip too slowly, add up to the history.
-TEST_F(EventStreamFiles, DropsRupturesAndHistoryHaveTheSameSlip) {
-  EventSettings settings = rupture_settings("a");
-  settings.slipping = 0.0;
-  settings.quiet = 1;
-  MadeUpRun run(settings);
-  run.begin();
-  run.run(0, 500, 50);
-  LSM::SlipHistoryReader reader(LSM::files::open_plain(settings.history_file));
-  std::vector<LSM::SlipRecord> records;
-  for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
-  double whole = 0.0;
-  for (const LSM::SlipRecord &record : records)
-    for (const float slip : record.row.slip) whole += static_cast<double>(slip);
-  const double factor = settings.modulus * run.grid.width;
-
-  // Every rupture is found that has any slip, and the fault is one that never stops.
-  run.stream->write_rest(true);
-  double in_ruptures = 0.0;
-  for (const LSM::Rupture &rupture : ruptures_of(settings)) in_ruptures += rupture.slip_moment;
-  EXPECT_NEAR(in_ruptures, factor * whole, 1e-12 * whole);
-
-  double in_drops = 0.0, expected = 0.0;
-  const auto drops = events_of(settings);
-  ASSERT_GE(drops.size(), 10u);
-  for (const LSM::Drop &drop : drops) {
-    double slip = 0.0, most = 0.0;
-    for (std::size_t b = 0; b < records[0].row.slip.size(); ++b) {
-      double place = 0.0;
-      for (const LSM::SlipRecord &record : records) {
-        const auto inside =
-            std::min(drop.step_end, record.step_end) - std::max(drop.step_start, record.step_begin);
-        if (inside > 0)
-          place += static_cast<double>(record.row.slip[b]) * static_cast<double>(inside) /
-                   static_cast<double>(record.step_end - record.step_begin);
-      }
-      slip += place;
-      most = std::max(most, place);
-    }
-    EXPECT_NEAR(drop.slip_moment, factor * slip, 1e-12);
-    EXPECT_NEAR(drop.peak_slip, most, 1e-12);
-    in_drops += drop.slip_moment;
-    expected += factor * slip;
-  }
-  EXPECT_NEAR(in_drops, expected, 1e-10);
-  EXPECT_GT(in_drops, 0.8 * factor * whole) << "this fault slips when PE falls";
-  EXPECT_LT(in_drops, factor * whole);
-}
-
 // The interval in which a drop ended may not be complete at the end of a run.
 TEST_F(EventStreamFiles, TheLastDropIsWrittenAtTheEnd) {
   EventSettings settings = pe_settings("a", true);

@@ -177,13 +177,6 @@ TEST_F(OutputClaims, FilesThatAreReplacedStayLocked) {
   EXPECT_EQ(slurp(path("a.csv")), "three\n");
 }
 
-TEST_F(OutputClaims, ALookWhetherItCanBeWrittenKeepsTheLock) {
-  const FileLock lock(path("a.csv"));
-  EXPECT_EQ(LSM::files::why_not_writable(path("a.csv")), "");
-  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock other(path("a.csv")); }),
-                       "is being written by another run"));
-}
-
 TEST_F(OutputClaims, FileSystemsWithoutLocksAreRefused) {
   for (const char *content : {"", "x"}) {
     if (content[0]) spill(path("a.csv"), content);
@@ -228,12 +221,6 @@ TEST_F(OutputClaims, FilesOfOthersAreComparedAndNotLocked) {
 TEST_F(OutputClaims, FoldersThatCannotBeWritten) {
   EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("none/a.csv")); }),
                        path("none/a.csv") + ": cannot open for writing: No such file"));
-}
-
-TEST_F(OutputClaims, DevicesAreNotLocked) {
-  OutputClaim claim;
-  claim = claim_outputs({{"a", "/dev/null"}, {"b", "/dev/null"}});
-  EXPECT_FALSE(fs::exists("/dev/null.new"));
 }
 
 }  // namespace

@@ -164,16 +164,6 @@ TEST_F(PeSeries, OwnTimesOutOfOrderAreRefused) {
       contains(message_of<FileError>([&] { read_all(file()); }), "expected increasing times"));
 }
 
-TEST_F(PeSeries, OtherTimesAreRefused) {
-  PeSeriesInfo info = some_info();
-  info.parameters.emplace_back("times", "none");
-  PeSeriesWriter writer;
-  writer.create(file(), info);
-  writer.close();
-  EXPECT_TRUE(contains(message_of<FileError>([&] { read_all(file()); }),
-                       "parameter 'times' is 'none', expected 'own'"));
-}
-
 TEST_F(PeSeries, ComesBackToTheLastBit) {
   const double values[] = {0.1,
                            1.0 / 3.0,
@@ -206,36 +196,6 @@ TEST_F(PeSeries, ComesBackToTheLastBit) {
     EXPECT_EQ(samples[i].pe, values[i]);
     EXPECT_EQ(std::signbit(samples[i].pe), std::signbit(values[i]));
   }
-}
-
-TEST_F(PeSeries, ManyBlocks) {
-  const std::int64_t last = 100 + 2 * 20000;
-  write_series(last);
-  const std::vector<Sample> samples = read_all(file());
-  ASSERT_EQ(samples.size(), 20001U);
-  for (const Sample &sample : samples) {
-    ASSERT_EQ(sample.pe, some_pe(sample.step));
-    ASSERT_EQ(sample.time, 7.0 + 0.25 * static_cast<double>(sample.step - 100));
-  }
-}
-
-TEST_F(PeSeries, TimesThatAreNoBinaryFractions) {
-  PeSeriesInfo info = some_info();
-  info.dt = 0.03;
-  info.time0 = 0.1;
-  info.step0 = 0;
-  write_series(20000, info);
-  for (const Sample &sample : read_all(file()))
-    ASSERT_DOUBLE_EQ(sample.time, 0.1 + 0.03 * static_cast<double>(sample.step));
-}
-
-TEST_F(PeSeries, LocaleDoesNotMatter) {
-  write_series(3000);
-  const std::string expected = slurp(file());
-  const unit::CommaLocale locale;
-  write_series(3000);
-  EXPECT_EQ(slurp(file()), expected);
-  EXPECT_EQ(read_all(file()).size(), 1451U);
 }
 
 TEST_F(PeSeries, FlushMakesSamplesVisible) {

@@ -294,21 +294,6 @@ TEST(Plane, RandomPatternsAgreeWithASearch) {
   EXPECT_GT(holes, 50u);
 }
 
-TEST(Plane, StatesOfAnotherPlaneAreRefused) {
-  RuptureFinder finder(some_plane(6, 4), some_settings());
-  FaultRow row(some_plane(6, 4));
-  finder.begin(0.0, 0.0, row);
-  row.slip[5] = 1.0F;
-  finder.add(0.0, 0.0, row, [](const FaultRupture &) {});
-  const std::vector<double> state = finder.state();
-  RuptureFinder other(some_plane(6, 5), some_settings());
-  EXPECT_THROW(other.set_state(state), std::invalid_argument);
-  for (std::size_t n = 0; n < state.size(); ++n)
-    EXPECT_THROW(finder.set_state({state.begin(), state.begin() + static_cast<long>(n)}),
-                 std::invalid_argument);
-  EXPECT_NO_THROW(finder.set_state(state));
-}
-
 class PlaneFiles : public unit::Files {
  protected:
   std::string file() const { return path("slip.bin"); }

@@ -94,12 +94,6 @@ TEST_F(RestartInfo, FilesThatAreMissing) {
   EXPECT_TRUE(contains(refusal(), file + ": cannot open: No such file"));
 }
 
-TEST_F(RestartInfo, TheLastLineWillDo) {
-  const std::string text = slurp(info);
-  spill(info, text.substr(text.rfind('\n', text.size() - 2) + 1));
-  EXPECT_TRUE(check_restart(file).empty());
-}
-
 // A file that has an info file is complete, whatever was interrupted.
 TEST_F(RestartInfo, OlderFileOfTheNameIsReplaced) {
   spill(path("draft"), "newer");

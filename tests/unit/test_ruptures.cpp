@@ -107,19 +107,6 @@ TEST(FaultRuptures, OneWithAllItsNumbers) {
   EXPECT_NEAR(e.stress_drop, 0.04, rounding);
 }
 
-TEST(FaultRuptures, AcrossTheSeam) {
-  const std::vector<Rupture> events = find({"1.........",  //
-                                            "2........2",  //
-                                            "........3."},
-                                           some_grid(), some_settings());
-  ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(events[0].rupture_length, 6.0);
-  EXPECT_EQ(events[0].x_begin, 11.0);
-  EXPECT_EQ(events[0].x_hypocentre, -4.0);
-  // Slips of 3, 2, 3 in the bins 0, 9, 8: the centre is that of the middle one.
-  EXPECT_NEAR(events[0].x_centroid, 14.0, 1e-6);
-}
-
 TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
   RuptureSettings settings = some_settings();
   settings.velocity = 0.015;

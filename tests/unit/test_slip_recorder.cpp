@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -61,30 +62,12 @@ TEST(SlipRecorder, SumsAlongTheDirectionOfDriving) {
     // x, displacement, steps, upper
     recorder.add(Faces{{12.5, 0.5, 5.0, true}, {13.5, 0.25, 5.0, true}, {8.5, -1.0, 5.0, false}});
     // displacements of the upper and the lower face with their steps, work, force
-    const std::vector<double> expected = {0,
-                                          0,
-                                          0,
-                                          0,
-                                          0,
-                                          0,  // bin 0
-                                          forward * 0.75,
-                                          10.0,
-                                          0,
-                                          0,
-                                          0.75,
-                                          forward * 3.0,  // bin 1
-                                          0,
-                                          0,
-                                          0,
-                                          0,
-                                          0,
-                                          0,  // bin 2
-                                          0,
-                                          0,
-                                          forward * -1.0,
-                                          5.0,
-                                          2.0,
-                                          forward * 4.0};  // bin 3
+    // of the bins 1 and 3
+    std::vector<double> expected(24, 0.0);
+    const double one[] = {forward * 0.75, 10.0, 0, 0, 0.75, forward * 3.0};
+    const double three[] = {0, 0, forward * -1.0, 5.0, 2.0, forward * 4.0};
+    std::copy_n(one, 6, &expected[6]);
+    std::copy_n(three, 6, &expected[18]);
     EXPECT_EQ(recorder.sums(), expected);
     recorder.clear();
     EXPECT_EQ(recorder.sums(), std::vector<double>(24, 0.0));
