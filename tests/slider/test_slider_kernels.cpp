@@ -110,5 +110,27 @@ TEST(SliderKernels, AgreesWithStraightforwardLoop) {
   }
 }
 
+TEST(SliderKernels, GoesOnFromAnySavedState) {
+  for (const Scheme scheme : {Scheme::printed, Scheme::verlet}) {
+    Parameters p = parameters({50, 0.01, 0.5, 0.01, 0}, scheme);
+    const auto mu = random_friction(p.blocks, 0.5, 1.0, 15);
+    Chain straight(p, mu, false);
+    std::unique_ptr<Chain> again;
+    for (int n = 0; n < 60000; ++n) {
+      if (n % 7 == 0) {
+        again = std::make_unique<Chain>(p, mu, false);
+        again->set_state(straight.state());
+      }
+      const auto moved = straight.moved() - again->moved();
+      straight.advance();
+      again->advance();
+      ASSERT_EQ(straight.pe(), again->pe()) << n;
+      ASSERT_EQ(straight.moved() - again->moved(), moved) << n;
+    }
+    EXPECT_EQ(straight.displacements(), again->displacements());
+    EXPECT_GT(straight.moved(), 1000);
+  }
+}
+
 }  // namespace
 }  // namespace Slider
