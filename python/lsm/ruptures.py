@@ -149,6 +149,9 @@ class Fit(NamedTuple):
     def text(self, what):
         return f"{what}: slope {self.slope:.4g} ± {self.error:.2g}, scatter {self.scatter:.2g} decades (n = {self.n})"
 
+    def ratio_text(self, what):
+        return f"{self.text(what)}; if proportional: ratio {self.ratio:.3g}, scatter {self.ratio_scatter:.2g} decades"
+
     def line(self, colour, what):
         title = quote(f"{what}: slope {self.slope:.3g} ± {self.error:.1g}")
         return f"10**({self.intercept:.15g} + {self.slope:.15g} * log10(x)) with lines lc rgb '{colour}' lw 1.6 title {title}"
