@@ -23,6 +23,7 @@
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 #include "lsm_version.h"
+#include "numerics/sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,7 @@ struct BondLSMLinked::Segment {
   int type;
   bool first_only;    // the force on the second particle is added by its owner
   LSMLinkRows::Rows rows;
+  LSM::NeumaierSum energy;
 };
 
 static const char cite_lsm[] =
@@ -159,9 +161,11 @@ void BondLSMLinked::collect()
     std::vector<Ends>().swap(links);
     std::vector<int>().swap(order);
     segments.push_back(
-        {type, first_only,
+        {type,
+         first_only,
          LSMLinkRows::make_rows(owned, std::move(sorted), nlocal, nlocal + atom->nghost, first_only,
-                                ratio[type] == 0.0, stride(type))});
+                                ratio[type] == 0.0, stride(type), domain->dimension == 3),
+         {}});
   }
   collected_at = neighbor->lastcall;
 }
@@ -178,32 +182,39 @@ std::vector<int> BondLSMLinked::owned_by_id() const
   return owned;
 }
 
+// In three dimensions a window of particles at a time gets the forces of links of all types, while
+// it is in the cache: blocks of several types of links are larger than that.
 template <int DIM> void BondLSMLinked::eval()
 {
   // a minimizer may reject positions that it tried, so that breaking a link would be premature
   const bool minimizing = update->whichflag == 2;
+  const int windows = segments.empty() ? 0 : static_cast<int>(segments[0].rows.windows.size()) - 1;
+  const int step = DIM == 3 ? 1 : windows;
+  for (Segment &s : segments) s.energy = {};
+  for (int from = 0; from < windows; from += step)
+    for (Segment &s : segments) {
+      const LSMLinkKernel::Windows some{from, from + step};
+      if (ratio[s.type] > 0.0 && !minimizing) {
+        broken_now.clear();
+        s.energy.add(forces_of<DIM>(s, some, LSMLinkKernel::Breakable{{k[s.type]}, ratio[s.type]}));
+        note_broken(s);
+      } else
+        s.energy.add(forces_of<DIM>(s, some, LSMLinkKernel::Elastic{k[s.type]}));
+    }
   pe_link = 0.0;
-  for (Segment &s : segments) {
-    if (ratio[s.type] > 0.0 && !minimizing) {
-      broken_now.clear();
-      pe_link += forces_of<DIM>(s, LSMLinkKernel::Breakable{{k[s.type]}, ratio[s.type]});
-      note_broken(s);
-    } else
-      pe_link += forces_of<DIM>(s, LSMLinkKernel::Elastic{k[s.type]});
-  }
-}
-
-template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
-{
-  if (!has_dashpot(s.type)) return add_forces<DIM>(s, law, atom->x[0]);
-  const LSMLinkKernel::KelvinVoigt<Law> both{law, k[s.type] * delay[s.type], &velocity->power};
-  return add_forces<DIM>(s, both, velocity->now(0));
+  for (const Segment &s : segments) pe_link += s.energy.value();
 }
 
 template <int DIM, class Law>
-double BondLSMLinked::add_forces(const Segment &s, const Law &law, const double *x)
+double BondLSMLinked::forces_of(const Segment &s, LSMLinkKernel::Windows windows, const Law &law)
 {
-  return LSMLinkKernel::forces<DIM>(s.rows, law, s.first_only, x, atom->f[0], broken_now, avx2);
+  const auto add = [&](const auto &any) {
+    return LSMLinkKernel::forces<DIM>(s.rows, windows, any, s.first_only, atom->x[0], atom->f[0],
+                                      broken_now, avx2);
+  };
+  if (!has_dashpot(s.type)) return add(law);
+  return add(LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type], &velocity->power,
+                                             velocity->now(0)});
 }
 
 // the numbers of a particle in the array that the kernel reads
@@ -217,9 +228,8 @@ int BondLSMLinked::stride(int type) const
 // collected without them.
 void BondLSMLinked::note_broken(Segment &segment)
 {
-  for (const LSMLinkKernel::Place &place : broken_now) {
-    const int i = segment.rows.particle[place.row] / segment.rows.stride,
-              j = segment.rows.other[place.link] / segment.rows.stride;
+  for (const LSMLinkRows::Found &link : broken_now) {
+    const int i = link.i, j = link.j;
     for (int m = 0; m < neighbor->nbondlist; m++) {
       int *const bond = neighbor->bondlist[m];
       if (bond[2] == segment.type && MIN(bond[0], bond[1]) == MIN(i, j) &&
@@ -229,7 +239,7 @@ void BondLSMLinked::note_broken(Segment &segment)
     broken.push_back(atom->tag[i]);
     broken.push_back(atom->tag[j]);
     broken.push_back(segment.type);
-    segment.rows.rest[place.link] = LSMLinkRows::NO_LINK;
+    segment.rows.rest[link.rest] = LSMLinkRows::NO_LINK;
     double none;
     if (record_what)
       work_broken += (segment.first_only ? 0.5 : 1.0) *
@@ -259,11 +269,9 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
   for (const Segment &s : segments)
     for (const LSMLinkRows::Stack &stack : s.rows.stacks)
       for (int n = 0; n < stack.slices * stack.length * LANES; n++) {
-        const double rest = s.rows.rest[stack.rest + (stack.rest_step ? n : 0)];
-        if (rest == LSMLinkRows::NO_LINK) continue;
-        const int row = n / (stack.length * LANES) * LANES + n % LANES;
-        act(s, s.rows.particle[stack.row + row] / s.rows.stride,
-            s.rows.other[stack.link + n] / s.rows.stride, rest);
+        const LSMLinkRows::Found link = s.rows.link(stack, n);
+        const double rest = s.rows.rest[link.rest];
+        if (rest != LSMLinkRows::NO_LINK) act(s, link.i, link.j, rest);
       }
 }
 

@@ -17,7 +17,10 @@ BondStyle(lsm/linked,BondLSMLinked);
 
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
-  struct Place;
+  struct Windows;
+}
+namespace LSMLinkRows {
+  struct Found;
 }
 
 class BondLSMLinked : public Bond, public LSMEnergySource {
@@ -64,7 +67,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   struct Segment;
   std::vector<Segment> segments;    // links that are treated the same way
   // links of a segment that broke in this evaluation
-  std::vector<LSMLinkKernel::Place> broken_now;
+  std::vector<LSMLinkRows::Found> broken_now;
   bigint collected_at = -1;    // step of the neighbour list that the links are from, -1 if outdated
 
   class FixLSMVelocity *velocity = nullptr;    // null if no link is viscous
@@ -77,8 +80,8 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   std::vector<int> owned_by_id() const;
   void collect();
   template <int DIM> void eval();
-  template <int DIM, class Law> double forces_of(const Segment &, const Law &);
-  template <int DIM, class Law> double add_forces(const Segment &, const Law &, const double *x);
+  template <int DIM, class Law>
+  double forces_of(const Segment &, LSMLinkKernel::Windows, const Law &);
   void note_broken(Segment &);
   template <class Act> void for_each_link(const Act &) const;
   void tally();

@@ -263,7 +263,8 @@ template <int PARTS, int DIM, FixLSMNVE::Kind KIND, bool CLEARS> void FixLSMNVE:
         for (int c = 0; c < DIM; c++) x[c] = to[c];
         if (KIND == AHEAD || next) {
           for (int c = 0; c < DIM; c++) next[c] = then[c];
-          for (int c = 0; c < DIM; c++) next[Motion::POSITION + c] = to[c];
+          if constexpr (Motion::HAS_POSITION)
+            for (int c = 0; c < DIM; c++) next[Motion::POSITION + c] = to[c];
           next += Motion::SIZE;
         }
       }

@@ -144,9 +144,11 @@ void FixLSMVelocity::send(bool all)
     if (!(atom->mask[i] & extrapolated)) others.push_back(i);
 }
 
+// only where Motion has positions
 void FixLSMVelocity::take_position(int i)
 {
-  std::copy_n(atom->x[i], domain->dimension, astore[i] + size(domain) / 2);
+  using Motion = LSMLinkKernel::Motion<2>;
+  if (domain->dimension == 2) std::copy_n(atom->x[i], 2, astore[i] + Motion::POSITION);
 }
 
 void FixLSMVelocity::set(int i, const double *velocity)

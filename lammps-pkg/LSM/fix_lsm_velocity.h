@@ -18,8 +18,8 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-/// Stores velocities at the time of the positions, and the positions beside them, of the particles
-/// of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move particles set both, as
+/// Stores velocities at the time of the positions, in two dimensions with the positions beside them,
+/// of the particles of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move particles set both, as
 /// LAMMPS' own velocities are half a step old when forces are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
@@ -32,7 +32,7 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
   static FixLSMVelocity *in_use(LAMMPS *);
 
   double *now(int i) const { return astore[i]; }
-  /// Sets velocity and position of a particle that has been moved.
+  /// Sets what is stored of a particle that has been moved.
   void set(int i, const double *velocity);
   /// Rate of the distance r of two particles.
   double rate(int i, int j, double r) const;

@@ -53,7 +53,7 @@ struct Fault {
     std::iota(owned.begin(), owned.end(), 0);
     const int all = static_cast<int>(x.size() / 3);
     const auto make = [&](const std::vector<LSMLinkRows::Link> &some, bool mixed, int stride) {
-      return LSMLinkRows::make_rows(owned, some, particles, all, mixed, true, stride);
+      return LSMLinkRows::make_rows(owned, some, particles, all, mixed, true, stride, false);
     };
     rows = make(links, false, 3);
     rows_to_ghosts = make(to_ghosts, true, 3);
@@ -79,14 +79,18 @@ void report(benchmark::State &state, const Fault &fault) {
 template <class Law>
 void rows(benchmark::State &state, const Law &law) {
   Fault &fault = Fault::of(static_cast<int>(state.range(0)));
-  std::vector<LSMLinkKernel::Place> broken;
+  std::vector<LSMLinkRows::Found> broken;
   const bool avx2 = state.range(1) && LSMLinkKernel::has_avx2();
-  const double *const x = (Law::viscous ? fault.motion : fault.x).data();
   const auto &inside = Law::viscous ? fault.moving : fault.rows;
   const auto &across = Law::viscous ? fault.moving_to_ghosts : fault.rows_to_ghosts;
   for (auto _ : state) {
-    double energy = LSMLinkKernel::forces<2>(inside, law, false, x, fault.f.data(), broken, avx2);
-    energy += LSMLinkKernel::forces<2>(across, law, true, x, fault.f.data(), broken, avx2);
+    double energy = 0.0;
+    const auto add = [&](const LSMLinkRows::Rows &some, bool first_only) {
+      energy += LSMLinkKernel::forces<2>(some, {0, static_cast<int>(some.windows.size()) - 1}, law,
+                                         first_only, fault.x.data(), fault.f.data(), broken, avx2);
+    };
+    add(inside, false);
+    add(across, true);
     benchmark::DoNotOptimize(energy);
   }
   report(state, fault);
@@ -95,7 +99,8 @@ void rows(benchmark::State &state, const Law &law) {
 void elastic(benchmark::State &state) { rows(state, LSMLinkKernel::Elastic{1.0}); }
 void dashpots(benchmark::State &state) {
   double lost = 0.0;
-  rows(state, LSMLinkKernel::KelvinVoigt<LSMLinkKernel::Elastic>{{1.0}, 0.005, &lost});
+  const double *const motion = Fault::of(static_cast<int>(state.range(0))).motion.data();
+  rows(state, LSMLinkKernel::KelvinVoigt<LSMLinkKernel::Elastic>{{1.0}, 0.005, &lost, motion});
 }
 void breakable(benchmark::State &state) { rows(state, LSMLinkKernel::Breakable{{1.0}, 2.0}); }
 
@@ -128,8 +133,9 @@ void make_lists(benchmark::State &state) {
   std::vector<int> owned(fault.particles);
   std::iota(owned.begin(), owned.end(), 0);
   for (auto _ : state)
-    benchmark::DoNotOptimize(LSMLinkRows::make_rows(
-        owned, fault.links, fault.particles, static_cast<int>(fault.x.size() / 3), false, true, 3));
+    benchmark::DoNotOptimize(LSMLinkRows::make_rows(owned, fault.links, fault.particles,
+                                                    static_cast<int>(fault.x.size() / 3), false,
+                                                    true, 3, false));
   report(state, fault);
 }
 

@@ -7,6 +7,7 @@ using namespace physics;
 
 using LinkTypes = Lmp;
 using BrokenLinks = Lmp;
+using LatticeLinks = Lmp;
 
 // ---- link types that can break and link types that cannot ----
 
@@ -212,4 +213,53 @@ run               10
         EXPECT_GE(touching, 2);
         EXPECT_TRUE(r.lines_with("kept from touching").empty()) << r.output;
       }
+}
+
+// ---- links of a lattice, which are stored as a pattern where particles lie in order ----
+
+TEST_F(LatticeLinks, SameDigitsInAnyOrderInMemory) {
+  const auto shaken = [](const std::string &dashpots, const std::string &order) {
+    return R"(
+variable          newton index off
+dimension         3
+boundary          f f p
+newton            ${newton}
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff 2.3
+neighbor          0.1 bin
+special_bonds     lj/coul 0 1 1
+create_lsm_fault  lattice cubic length 20 width 10 depth 8 spacing 1 mass r3 8
+bond_style        lsm/linked
+bond_coeff        * 1.0 )" +
+           dashpots + "\nbond_coeff 4*5 1.0 1.05 rest $(sqrt(2):%.17g) " + dashpots + R"(
+fix               move all lsm/nve
+velocity          all create 0.003 7 loop geom
+compute           events all lsm/events ledger yes
+thermo_style      custom step ke c_events[6] c_events[14] bonds
+thermo_modify     norm no
+timestep          0.1
+)" + order +
+           "\nthermo 20\nrun 60\nprint 'links = $(c_events[6]:%.17g)'\n" +
+           "print 'broken = $(c_events[14]:%.17g)'\n";
+  };
+  for (const std::string dashpots : {"", "kelvin-voigt 0.05"}) {
+    const Result pattern = run_text(shaken(dashpots, ""));
+    ASSERT_TRUE(succeeded(pattern));
+    const double before = pattern.thermo.at(0).at("Bonds"), after = pattern.last("Bonds");
+    EXPECT_LT(after, before - 20.0);
+    EXPECT_GT(after, 0.9 * before);
+    EXPECT_GT(pattern.value("broken"), 0.1);
+    const Result list = run_text(shaken(dashpots, "atom_modify sort 20 1.5"));
+    ASSERT_TRUE(succeeded(list));
+    for (const char *value : {"links", "broken"})
+      EXPECT_EQ(list.value(value), pattern.value(value));
+    for (const char *newton : {"off", "on"}) {
+      const Result ranks = run_text(shaken(dashpots, ""), {{"newton", newton}}, 2);
+      ASSERT_TRUE(succeeded(ranks));
+      EXPECT_EQ(ranks.last("Bonds"), after) << newton;
+      for (const char *value : {"links", "broken"})
+        EXPECT_NEAR(ranks.value(value), pattern.value(value), 1e-12 * pattern.value(value));
+    }
+  }
 }

@@ -57,24 +57,79 @@ Network links_to_ghosts(Network net) {
   return net;
 }
 
-Rows rows_of(const Network &net, bool mixed = false, bool share = false, int stride = 3) {
-  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed, share, stride);
+/// A disturbed cubic lattice of 30 x 6 x 9 nodes, linked along edges and diagonals. The last plane
+/// are ghosts.
+/// \param missing share of the links that are not there
+Network make_lattice(double missing) {
+  const int size[] = {30, 6, 9};
+  LSM::Random random(43);
+  Network net;
+  net.nlocal = size[0] * size[1] * (size[2] - 1);
+  net.nall = net.nlocal + size[0] * size[1];
+  const int steps[][3] = {{1, 0, 0},  {0, 1, 0},  {-1, 1, 0}, {1, 1, 0}, {0, 0, 1},
+                          {0, -1, 1}, {-1, 0, 1}, {1, 0, 1},  {0, 1, 1}};
+  for (int n = 0; n < net.nall; ++n) {
+    const int at[] = {n % size[0], n / size[0] % size[1], n / (size[0] * size[1])};
+    for (int c : at) net.x.push_back(c + random.uniform(-0.2, 0.2));
+    for (const auto &step : steps) {
+      int to[3], squares = 0;
+      bool inside = n < net.nlocal && random.uniform() >= missing;
+      for (int c = 0; c < 3; ++c) {
+        to[c] = at[c] + step[c];
+        squares += step[c] * step[c];
+        inside = inside && to[c] >= 0 && to[c] < size[c];
+      }
+      if (inside)
+        net.links.push_back(
+            {n, to[0] + size[0] * (to[1] + size[1] * to[2]), std::sqrt(1.0 * squares)});
+    }
+  }
+  net.owned.resize(net.nlocal);
+  std::iota(net.owned.begin(), net.owned.end(), 0);
+  return net;
+}
+
+/// Where particles are that change their places in memory.
+std::vector<int> places(const Network &net) {
+  std::vector<int> place(net.nall);
+  std::iota(place.begin(), place.end(), 0);
+  LSM::Random random(31);
+  for (int n = net.nlocal - 1; n > 0; --n)
+    std::swap(place[n], place[static_cast<int>(random.uniform() * (n + 1))]);
+  return place;
+}
+
+/// The same with particles at other places. Links and owned particles stay in the order of IDs.
+Network moved_to(const std::vector<int> &place, Network net) {
+  const Network before = net;
+  for (int n = 0; n < net.nall; ++n) std::copy_n(&before.x[3 * n], 3, &net.x[3 * place[n]]);
+  for (Link &link : net.links) link = {place[link.i], place[link.j], link.rest};
+  for (int &i : net.owned) i = place[i];
+  return net;
+}
+
+Rows rows_of(const Network &net, bool mixed = false, bool share = false, int stride = 3,
+             bool regular = false) {
+  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed, share, stride, regular);
+}
+
+LSMLinkKernel::Windows all_of(const Rows &rows) {
+  return {0, static_cast<int>(rows.windows.size()) - 1};
 }
 
 struct Evaluation {
   double energy;
   std::vector<double> f;
-  std::vector<LSMLinkKernel::Place> broken;
+  std::vector<LSMLinkRows::Found> broken;
   double virial;  // change of the energy if each length is rounded once, over epsilon
 };
 
 template <int DIM, class Law>
 Evaluation evaluate(const Network &net, const Rows &rows, const Law &law, bool first_only = false,
-                    bool avx2 = LSMLinkKernel::has_avx2(),
-                    const std::vector<double> *motion = nullptr) {
+                    bool avx2 = LSMLinkKernel::has_avx2()) {
   Evaluation e{0.0, std::vector<double>(net.x.size(), 0.0), {}, 0.0};
-  const double *const x = (motion ? *motion : net.x).data();
-  e.energy = LSMLinkKernel::forces<DIM>(rows, law, first_only, x, e.f.data(), e.broken, avx2);
+  e.energy = LSMLinkKernel::forces<DIM>(rows, all_of(rows), law, first_only, net.x.data(),
+                                        e.f.data(), e.broken, avx2);
   return e;
 }
 
@@ -114,10 +169,8 @@ std::multiset<std::pair<int, int>> pairs_of(const Rows &rows) {
   std::multiset<std::pair<int, int>> all;
   for (const auto &stack : rows.stacks)
     for (int n = 0; n < stack.slices * stack.length * LSMLinkRows::LANES; ++n) {
-      if (rows.rest[stack.rest + (stack.rest_step ? n : 0)] == LSMLinkRows::NO_LINK) continue;
-      const int row = n / (stack.length * LSMLinkRows::LANES) * LSMLinkRows::LANES;
-      const int i = rows.particle[stack.row + row + n % LSMLinkRows::LANES] / 3;
-      all.insert(std::minmax(i, rows.other[stack.link + n] / 3));
+      const auto link = rows.link(stack, n);
+      if (rows.rest[link.rest] != LSMLinkRows::NO_LINK) all.insert(std::minmax(link.i, link.j));
     }
   return all;
 }
@@ -206,8 +259,12 @@ TEST(LinkKernel, BrokenLinksAreNamedOnce) {
   for (bool mixed : {false, true}) {
     const Rows rows = rows_of(net, mixed);
     got.clear();
-    for (const auto &place : evaluate<2>(net, rows, Breakable{{1.0}, 1.2}, mixed).broken)
-      got.insert(std::minmax(rows.particle[place.row] / 3, rows.other[place.link] / 3));
+    for (const auto &link : evaluate<2>(net, rows, Breakable{{1.0}, 1.2}, mixed).broken) {
+      EXPECT_GT(std::hypot(net.x[3 * link.i] - net.x[3 * link.j],
+                           net.x[3 * link.i + 1] - net.x[3 * link.j + 1]),
+                1.2 * rows.rest[link.rest]);
+      got.insert(std::minmax(link.i, link.j));
+    }
     EXPECT_EQ(got, expected);
   }
 }
@@ -223,24 +280,14 @@ TEST(LinkKernel, LinksThatMayBreakPullLikeOthers) {
 }
 
 TEST(LinkKernel, SameDigitsInAnyOrderInMemory) {
-  // Particles change their places in memory; links and owned particles stay in the order of IDs.
   const Network net = make_network(50, 2, 29);
-  std::vector<int> place(net.nlocal);
-  std::iota(place.begin(), place.end(), 0);
-  LSM::Random random(31);
-  for (int n = net.nlocal - 1; n > 0; --n)
-    std::swap(place[n], place[static_cast<int>(random.uniform() * (n + 1))]);
-  const auto moved = [&](int n) { return n < net.nlocal ? place[n] : n; };
-  Network other = net;
-  for (int n = 0; n < net.nall; ++n) std::copy_n(&net.x[3 * n], 3, &other.x[3 * moved(n)]);
-  for (Link &link : other.links) link = {moved(link.i), moved(link.j), link.rest};
-  for (int &i : other.owned) i = moved(i);
-
+  const std::vector<int> place = places(net);
+  const Network other = moved_to(place, net);
   const Evaluation a = evaluate<2>(net, rows_of(net), Elastic{1.0});
   const Evaluation b = evaluate<2>(other, rows_of(other), Elastic{1.0});
   EXPECT_EQ(a.energy, b.energy);
   for (int n = 0; n < net.nall; ++n)
-    for (int c = 0; c < 2; ++c) ASSERT_EQ(a.f[3 * n + c], b.f[3 * moved(n) + c]) << n;
+    for (int c = 0; c < 2; ++c) ASSERT_EQ(a.f[3 * n + c], b.f[3 * place[n] + c]) << n;
 }
 
 template <int DIM, class Law>
@@ -279,7 +326,8 @@ std::vector<double> motion_of(const Network &net, const std::vector<double> &v) 
   std::vector<double> all(net.x.size() / 3 * Motion::SIZE, 0.0);
   for (std::size_t i = 0; i < net.x.size() / 3; ++i) {
     std::copy_n(&v[3 * i], DIM, &all[Motion::SIZE * i]);
-    std::copy_n(&net.x[3 * i], DIM, &all[Motion::SIZE * i + Motion::POSITION]);
+    if (Motion::HAS_POSITION)
+      std::copy_n(&net.x[3 * i], DIM, &all[Motion::SIZE * i + Motion::POSITION]);
   }
   return all;
 }
@@ -287,11 +335,11 @@ std::vector<double> motion_of(const Network &net, const std::vector<double> &v) 
 template <int DIM, class Spring>
 Evaluation with_dashpots(const Network &net, const Spring &spring, double viscosity,
                          const std::vector<double> &v, bool first_only, double &lost,
-                         bool avx2 = LSMLinkKernel::has_avx2()) {
+                         bool avx2 = LSMLinkKernel::has_avx2(), bool regular = false) {
   const std::vector<double> motion = motion_of<DIM>(net, v);
-  const Rows rows = rows_of(net, first_only, false, LSMLinkKernel::Motion<DIM>::SIZE);
-  return evaluate<DIM>(net, rows, KelvinVoigt<Spring>{spring, viscosity, &lost}, first_only, avx2,
-                       &motion);
+  const Rows rows = rows_of(net, first_only, false, LSMLinkKernel::Motion<DIM>::SIZE, regular);
+  return evaluate<DIM>(net, rows, KelvinVoigt<Spring>{spring, viscosity, &lost, motion.data()},
+                       first_only, avx2);
 }
 
 template <int DIM, class Spring>
@@ -357,6 +405,83 @@ TEST(LinkKernel, InstructionSetsGiveTheSameDigitsWithDashpots) {
     f[avx2] = with_dashpots<2>(net, Breakable{{0.7}, 1.2}, 0.3, v, false, lost[avx2], avx2).f;
   EXPECT_EQ(lost[0], lost[1]);
   EXPECT_EQ(f[0], f[1]);
+}
+
+TEST(LinkRows, OfALatticeAreRegular) {
+  for (const double missing : {0.0, 0.01}) {
+    const Network net = make_lattice(missing);
+    const Network moved = moved_to(places(net), net);
+    const auto regular = [](const Rows &rows) {
+      int links = 0;
+      for (const auto &stack : rows.stacks)
+        if (stack.regular) links += stack.slices * stack.length * LSMLinkRows::LANES;
+      return links;
+    };
+    const Rows rows = rows_of(net, false, true, 3, true);
+    const double share = 1.0 * regular(rows) / static_cast<double>(net.links.size());
+    EXPECT_GT(share, missing > 0.0 ? 0.4 : 0.6);  // the rest are borders, and links to ghosts
+    EXPECT_LT(static_cast<double>(rows.other.size()),
+              (1.1 - 0.7 * share) * static_cast<double>(net.links.size()));
+    EXPECT_EQ(pairs_of(rows), pairs_of(rows_of(net)));
+    const Rows single = rows_of(moved, false, true, 3, true);
+    EXPECT_EQ(regular(single), 0);
+    EXPECT_EQ(pairs_of(single), pairs_of(rows_of(moved)));
+  }
+}
+
+TEST(LinkKernel, RegularSlicesGiveTheDigitsOfSingleLinks) {
+  for (const double missing : {0.0, 0.01})
+    for (const bool avx2 : {false, LSMLinkKernel::has_avx2()}) {
+      const Network net = make_lattice(missing);
+      const std::vector<int> place = places(net);
+      const Network moved = moved_to(place, net);
+      const auto expect_same = [&](const Evaluation &a, const Evaluation &b) {
+        EXPECT_EQ(a.energy, b.energy);
+        for (int n = 0; n < net.nall; ++n)
+          for (int c = 0; c < 3; ++c) ASSERT_EQ(a.f[3 * n + c], b.f[3 * place[n] + c]) << n;
+        ASSERT_EQ(a.broken.size(), b.broken.size());
+        for (std::size_t n = 0; n < a.broken.size(); ++n) {
+          EXPECT_EQ(place[a.broken[n].i], b.broken[n].i);
+          EXPECT_EQ(place[a.broken[n].j], b.broken[n].j);
+        }
+      };
+      const Rows rows = rows_of(net, false, true, 3, true),
+                 each = rows_of(net, false, false, 3, true);
+      const Evaluation springs = evaluate<3>(net, rows, Elastic{0.7}, false, avx2);
+      const Evaluation broken = evaluate<3>(net, each, Breakable{{0.7}, 1.2}, false, avx2);
+      expect_near(springs, plain(net, 0.7, 0.0));
+      expect_near(broken, plain(net, 0.7, 1.2));
+      EXPECT_GT(broken.broken.size(), 100u);
+      expect_same(springs, evaluate<3>(moved, rows_of(moved, false, true, 3, true), Elastic{0.7},
+                                       false, avx2));
+      expect_same(broken, evaluate<3>(moved, rows_of(moved, false, false, 3, true),
+                                      Breakable{{0.7}, 1.2}, false, avx2));
+
+      const std::vector<double> v = velocities_of(net);
+      std::vector<double> v_moved(v.size());
+      for (int n = 0; n < net.nall; ++n) std::copy_n(&v[3 * n], 3, &v_moved[3 * place[n]]);
+      double lost[2] = {0.0, 0.0};
+      const auto dashpots = [&](const Network &of, const std::vector<double> &velocities,
+                                double &power) {
+        return with_dashpots<3>(of, Elastic{0.7}, 0.3, velocities, false, power, avx2, true);
+      };
+      expect_same(dashpots(net, v, lost[0]), dashpots(moved, v_moved, lost[1]));
+      EXPECT_EQ(lost[0], lost[1]);
+      EXPECT_GT(lost[0], 10.0);
+    }
+}
+
+TEST(LinkKernel, WindowsOneByOneGiveTheSameForces) {
+  const Network net = make_lattice(0.0);
+  const Rows rows = rows_of(net, false, true, 3, true);
+  ASSERT_GT(all_of(rows).last, 1);
+  Evaluation e{0.0, std::vector<double>(net.x.size(), 0.0), {}, 0.0};
+  for (int n = 0; n < all_of(rows).last; ++n)
+    e.energy += LSMLinkKernel::forces<3>(rows, {n, n + 1}, Elastic{0.7}, false, net.x.data(),
+                                         e.f.data(), e.broken, LSMLinkKernel::has_avx2());
+  const Evaluation whole = evaluate<3>(net, rows, Elastic{0.7});
+  EXPECT_EQ(e.f, whole.f);
+  EXPECT_NEAR(e.energy, whole.energy, 1e-14 * whole.energy);
 }
 
 }  // namespace

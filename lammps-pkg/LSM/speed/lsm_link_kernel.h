@@ -20,10 +20,12 @@
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
-  /// Velocity and position of a particle side by side, as dashpots need both: one access to memory
-  /// instead of two.
+  /// What dashpots read of a particle. In two dimensions velocity and position lie side by side:
+  /// one access to memory instead of two. In three only velocities are kept, as the neighbors of a
+  /// lattice follow on each other in any array.
   template <int DIM> struct Motion {
-    static constexpr int SIZE = DIM == 2 ? 4 : 8, POSITION = SIZE / 2;    ///< velocities come first
+    static constexpr bool HAS_POSITION = DIM == 2;
+    static constexpr int SIZE = DIM == 2 ? 4 : 3, POSITION = 2;    ///< velocities come first
   };
 
   // The laws of links, for the single loop over links, which handles several side by side. A Number
@@ -55,7 +57,8 @@ namespace LSMLinkKernel {
   template <class Spring> struct KelvinVoigt : Spring {
     static constexpr bool viscous = true;
     double viscosity;
-    double *lost;    // the power dissipated by the dashpots is added
+    double *lost;            // the power dissipated by the dashpots is added
+    const double *motion;    // the Motion of each particle
     /// Attraction by the dashpot.
     template <class Number> [[gnu::always_inline]] Number drag(const Number &rate) const
     {
@@ -63,22 +66,24 @@ namespace LSMLinkKernel {
     }
   };
 
-  /// A link: its index in Rows::particle, and in Rows::other and, if it can break, in Rows::rest.
-  struct Place {
-    int row, link;
+  using LSMLinkRows::Found;
+
+  /// Windows of rows, from the first to the one before the last.
+  struct Windows {
+    int first, last;
   };
 
   /// Adds the forces of links to f and returns their elastic energy. Links that break give neither,
   /// and are added to `broken`.
+  /// \param windows     those to work on
   /// \param first_only  no force on the partner: its owner adds it. Half of the energy is returned.
   /// Rows have to be mixed
-  /// \param x           positions; with dashpots the Motion of each particle. Rows have to have
-  /// its stride
+  /// \param x           positions. With dashpots rows have to have the stride of Motion
   /// \param avx2        use these instructions, which the processor has to have; the same digits
   /// either way
   template <int DIM, class Law>
-  double forces(const LSMLinkRows::Rows &, const Law &, bool first_only, const double *x, double *f,
-                std::vector<Place> &broken, bool avx2);
+  double forces(const LSMLinkRows::Rows &, Windows, const Law &, bool first_only, const double *x,
+                double *f, std::vector<Found> &broken, bool avx2);
 
   /// Whether the processor has AVX2.
   bool has_avx2();
