@@ -19,7 +19,7 @@ files_of() {
   local pattern=$1 file
   shift
   if [ $# = 0 ]; then
-    git ls-files --cached --others --exclude-standard -- cli lammps-pkg slider postproc tests inputs results | grep -E "$pattern" |
+    git ls-files --cached --others --exclude-standard -- cli lammps-pkg slider postproc tests inputs python results | grep -E "$pattern" |
       while read -r file; do [ ! -e "$file" ] || echo "$file"; done
   else
     printf '%s\n' "$@" | grep -E "$pattern" || true

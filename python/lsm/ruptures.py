@@ -243,7 +243,8 @@ def relations_of(catalogues, smallest=None):
             begin, lasting = start.min(initial=math.inf), np.ptp(start) if len(start) else 0.0
             part = PARTS * number + np.minimum(PARTS - 1, (start - begin) / (lasting or 1.0) * PARTS).astype(int)
             whole = one.events["rupture_length"] > one.length * (1 - 1e-9)
-            columns.append([np.asarray(column)[kept] for column in (one.events[COLUMNS[:2] + ["pe_start", "pe_end"]], part, alone(one.events), whole)])
+            columns.append(
+                [np.asarray(column)[kept] for column in (one.events[COLUMNS[:2] + ["pe_start", "pe_end"]], part, alone(one.events), whole)])
         least = max(FEWEST_BINS * one.number("slip_bin", 1.0) for one in some) if smallest is None else smallest
         found.append(Relation(label, *(np.concatenate(column) for column in zip(*columns)), least))
     return found
@@ -649,7 +650,10 @@ def main(catalogues, label, history, begin, end, smallest, p_speed, s_speed, arr
         figures += plane_figures(slip, loaded[0], begin, end, arrival) if slip.plane else line_figures(slip, loaded[0], begin, end,
                                                                                                        (p_speed, s_speed))
     try:
-        figures += [density_figure(loaded, "-lengths", "rupture_length"), density_figure(loaded, "-moments", "slip_moment"), *relations(loaded, smallest)]
+        figures += [
+            density_figure(loaded, "-lengths", "rupture_length"),
+            density_figure(loaded, "-moments", "slip_moment"), *relations(loaded, smallest)
+        ]
     except ValueError as error:
         if not json_file and not (history and slip.plane):  # a rupture of a plane is often the only one of its run
             raise

@@ -39,7 +39,6 @@ COLUMNS = ("source_duration peak_moment_rate centroid_time stress_work friction_
            "weighted_stress_drop corner_frequency").split()
 BANDS, IN_BAND = 16, 8  # of a spectrum, from a tenth to ten times the inverse of the duration, and frequencies in each
 
-
 # ---- which slip belongs together, as compute lsm/events finds it
 
 
@@ -61,7 +60,7 @@ def neighbours(shape, rings, gap):
     reaches = [min(gap + 1, max(1 - n, (bins + (0 if ring else gap + 1)) // 2)) for n, (bins, ring) in enumerate(zip(shape, rings))]
     cells = np.indices(shape)
     for step in itertools.product(*(range(-reach, reach + 1) for reach in reaches)):
-        if step <= (0, ) * len(shape):
+        if step <= (0,) * len(shape):
             continue
         there, inside = 0, True
         for at, move, bins, ring in zip(cells, step, shape, rings):
@@ -204,14 +203,15 @@ def of_run(history, one):
     known = {key: n for *key, n in zip(record[of_first], cell[of_first], number[of_first]) for key in [tuple(key)]}
     record_of = {step: n for n, step in enumerate(history.records["step_begin"].tolist())}
     for event in one.events:
-        places = [(math.floor((event[name] - low) / width + 1e-6), bins) for name, low, width, bins in
-                  (("x_hypocentre", history.x0, history.bin, history.bins), ("z_hypocentre", history.head.get("z0"), history.head.get("bin_dip"),
-                                                                             rows))[:1 + history.plane]]
+        places = [(math.floor((event[name] - low) / width + 1e-6), bins)
+                  for name, low, width, bins in (("x_hypocentre", history.x0, history.bin, history.bins),
+                                                 ("z_hypocentre", history.head.get("z0"), history.head.get("bin_dip"), rows))[:1 + history.plane]]
         at = sum(place % bins * (rows if n == 0 else 1) for n, (place, bins) in enumerate(places))
         n = known.get((record_of.get(int(event["step_start"])), at))
         if n is None or history.records["step_end"][last[n]] != event["step_end"]:
-            raise ValueError(f"{history.path}: does not have all of rupture {event['event_id']}, expected its slip from step {event['step_start']} to "
-                             f"{event['step_end']}")
+            raise ValueError(
+                f"{history.path}: does not have all of rupture {event['event_id']}, expected its slip from step {event['step_start']} to "
+                f"{event['step_end']}")
         mine = slice(begins[n], begins[n + 1])
         yield Source(history, event, record[mine], cell[mine])
 
@@ -232,8 +232,8 @@ def scaling(one, sources):
     rows = [[event["event_id"], source.moment, *(source.numbers[name] for name in ("source_duration", "radiated_energy", "apparent_stress"))]
             for event, source in zip(one.events, sources) if source.moment > 0]  # yapf: disable
     values = np.array(rows)[:, 1:].T if rows else np.zeros((4, 0))
-    for ending, column, name, label in (("-source-duration", 1, "source_duration", "Duration, 5 to 95 % of the moment"), ("-source-energy", 2, "radiated_energy",
-                                                                                                                   "Radiated energy")):
+    for ending, column, name, label in (("-source-duration", 1, "source_duration", "Duration, 5 to 95 % of the moment"),
+                                        ("-source-energy", 2, "radiated_energy", "Radiated energy")):
         moment, value = values[0], values[column]
         used = value > 0
         try:
@@ -265,13 +265,13 @@ def main(catalogue, history, output, overwrite, no_picture):
     record = History(history)
     sources = list(of_run(record, one))
     columns = [name for name in COLUMNS if name != "fracture_energy" or not one.events.header.get("law", "").startswith("coulomb")]
-    rates = [[event["event_id"], event["t_start"] + (n + 0.5) * record.duration, float(rate)] for event, source in zip(one.events, sources)
-             for n, rate in enumerate(source.rate)]
+    rates = [[event["event_id"], event["t_start"] + (n + 0.5) * record.duration,
+              float(rate)] for event, source in zip(one.events, sources) for n, rate in enumerate(source.rate)]
     comments = ["moment rate of each rupture: its number, the middle of each interval, and moment per time, along its moment",
                 *(f"{key} = {one.events.header[key]}" for key in ("model", "length", "dt", "seed") if key in one.events.header), f"spacing = {record.duration:.17g}"]  # yapf: disable
     text = catalogue_with(catalogue, sources, columns)
-    draw_all("lsm.sources", base, [Figure("-moment-rates", comments, "event_id,time,moment_rate", rates), *scaling(one, sources)], [catalogue, history],
-             not no_picture)
+    draw_all("lsm.sources", base, [Figure("-moment-rates", comments, "event_id,time,moment_rate", rates), *scaling(one, sources)],
+             [catalogue, history], not no_picture)
     written.write_text(text, encoding="utf-8")
     print(f"wrote {written}")
 
