@@ -487,7 +487,7 @@ def publish_runs(postproc, *names):
     update_table(VARIANTS, [
         "Runs of length 120 with another time step or width, and the usual ones of the same packings: drops >= 1e-4, slips >= 0.1 and ruptures",
         "of a work >= 0.01 in 1000 time units, exponent, gamma and B as in the article (faults.py publish)"
-    ], [variant_of(postproc, folder) for folder in (*variants, *full) if folder in variants or folder.name in USUAL_RUNS], lambda row: row["run"])
+    ], [variant_of(postproc, folder) for folder in (*variants, *(one for one in full if one.name in USUAL_RUNS))], lambda row: row["run"])
     update_table(PICKED, [
         "Series picked again (faults.py publish): ramp, a steady rise of PE in a time unit that was added to it; rates in 1000 time units;",
         "gamma, B: by likelihood of the times above so many means, or by least squares on their density, of events of at least a size"
@@ -735,8 +735,9 @@ def burst_values():
         for key in "stretches bursts rate_in_bursts rate_else rate_largest gamma gamma_else exponent exponent_else".split():
             if row[key]:
                 yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), source="bursts.csv")
+    disc = read(TRAPPED)[0]
     for key in "period radius share_of_line own_period".split():
-        yield Value(f"trapped.1.{key}", number(read(TRAPPED)[0], key), source="trapped.csv")
+        yield Value(f"trapped.1.{key}", number(disc, key), source="trapped.csv")
 
 
 def threshold_values():

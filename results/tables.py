@@ -128,7 +128,8 @@ def agreement():
             "drops >= 1e-4 in 1000 time units": "rate.drops.{}.0.0001 ()", "slips >= 0.1 (ours)": "rate.slips.{}.0.1 ()",
             "exponent": "exponent.all.{} ()", "gamma": "gamma.all.{} ()", "B": "B.all.{} ()"
         })
-    packings = [f"{values.read()[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)}" for row in rows]
+    found = values.read()
+    packings = [f"{found[f'exponent.all.{row}'].n}, {article.FITTED.get(row, 0)}" for row in rows]
     paper_says = ["paper, all lengths", f"{article.PAPER:.0f}", "", "1.07", "0.995", "15.2", ""]
     return [*head, "packings, of which fitted"], [paper_says, *([*row, some] for row, some in zip(cells, packings))]
 
@@ -226,7 +227,8 @@ def rupture_packing():
         groups.setdefault(int(spacing), {}).setdefault(seed, {})[float(row["x"])] = {key: float(row[key]) for key in list(row)[3:]}
 
     def late(packed):
-        return [rms(at["arrival"] - at["reference_arrival"] for at in stations.values()) for stations in packed]
+        times = [rms(at["arrival"] - at["reference_arrival"] for at in stations.values()) for stations in packed]
+        return " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(times), max(times))))
 
     def scatter(packed):
         return math.sqrt(statistics.fmean(statistics.variance(stations[x]["arrival"] for stations in packed) for x in packed[0]))
@@ -241,7 +243,7 @@ def rupture_packing():
 
     return rows_table([(spacing, list(packed.values())) for spacing, packed in sorted(groups.items(), reverse=True)], {
         "spacing (largest radius)": lambda one: f"{one[0]} m ({1.374 * one[0]:.0f} m)", "packings": lambda one: str(len(one[1])),
-        "arrival, rms of each (s)": lambda one: " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late(one[1])), max(late(one[1]))))),
+        "arrival, rms of each (s)": lambda one: late(one[1]),
         "scatter between packings (s)": lambda one: f"{scatter(one[1]):.2f}",
         "fronts faster than S-waves from 3 to 12 km": lambda one: fast(one[1]), "slip, rms; mean (%)": lambda one: slips(one[1])
     })  # yapf: disable

@@ -88,7 +88,7 @@ def check_replaced(path, text):
         head = []
     if head[:1] != [MAGIC]:
         raise Refused(f"{path}: exists already and holds something else, expected a new name")
-    had, new = header_of(head), header_of(itertools.takewhile(lambda line: line.startswith("#"), text.splitlines()))
+    had, new = header_of(head), header_of(text.splitlines())
     other = [key for key in had if key in new and had[key] != new[key] and key not in CHANGING]
     if other:
         raise Refused(f"{path}: exists already, of another run with {other[0]} = {had[other[0]]}, not {new[other[0]]}, expected a new name")

@@ -59,6 +59,10 @@ def is_number(text, above=-math.inf):
         return False
 
 
+def shorten_of(config):
+    return float(config.get("shorten") or 1)
+
+
 def pattern(text, where):
     """Compiles a regular expression. \\raises TableError if it is not valid"""
     try:
@@ -85,7 +89,7 @@ class Run:
 
     def __init__(self, name, row, config):
         self.name = self.folder = name
-        self.row, self.program, self.settings, self.shorten = row, row["program"], settings_of(row, config), float(config.get("shorten") or 1)
+        self.row, self.program, self.settings, self.shorten = row, row["program"], settings_of(row, config), shorten_of(config)
         self.postproc = shlex.quote(f"{config.get('bin')}/postproc")
         on_ranks = PROGRAMS[self.program].on_ranks
         given = row.get("ranks") or (config.get("ranks") if on_ranks else "")
@@ -156,7 +160,7 @@ def settings_of(row, config):
         pairs[key] = value
     if row["program"] == "catalogue":
         return pairs
-    shorten = float(config.get("shorten") or 1)
+    shorten = shorten_of(config)
     if shorten != 1 and not {"steps", "time"} & pairs.keys():
         raise TableError(f"shorten={shorten:g}, but the line has neither steps nor time")
     for key in ("steps", "time"):
@@ -231,7 +235,7 @@ class Study:
 
     def __init__(self, config):
         table = Path(config["table"])
-        self.binaries, self.shorten = config["bin"], float(config.get("shorten") or 1)
+        self.binaries, self.shorten = config["bin"], shorten_of(config)
         self.runs = read_runs(table, config)
         self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
         own = table.with_suffix(".py")

@@ -19,8 +19,8 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 namespace LAMMPS_NS {
 
 /// Stores velocities at the time of the positions, in two dimensions with the positions beside them,
-/// of the particles of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move particles set both, as
-/// LAMMPS' own velocities are half a step old when forces are evaluated.
+/// of the particles of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move
+/// particles set them, as LAMMPS' own velocities are half a step old when forces are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);

@@ -44,12 +44,12 @@ def recorded(catalogue, history, begin):
     return catalogue[(catalogue["t_start"] >= begin) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
 
 
-def random_starts(history, events, first, seed):
+def random_starts(history, events, first):
     """Steps at which random stretches begin, STRETCHES for each event, as long, in which no event of its size or more goes on.
 
     A stretch that meets one is drawn again, a hundred times at most: the fault may be busy. In a history from step `first` on.
     """
-    rng, begin, end = np.random.default_rng(seed), events["step_start"].astype(float), events["step_end"].astype(float)
+    rng, begin, end = np.random.default_rng(1), events["step_start"].astype(float), events["step_end"].astype(float)
     lasting, size = end - begin, np.append(events["size"], 0.0)
 
     def busy(start, of):
@@ -80,7 +80,7 @@ def judged(history, events, first):
         return np.asarray((work - rate * (end - begin)) / events["size"])
 
     chance = np.zeros(len(begin))
-    for start in random_starts(history, events, first, 1):
+    for start in random_starts(history, events, first):
         chance += excess(history.worked(start, start + end - begin)) > SLIP
     return excess(work), chance / STRETCHES
 
