@@ -18,8 +18,8 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-/// Stores velocities at the time of the positions, in two dimensions with the positions beside them,
-/// of the particles of this rank and of ghosts: see LSMLinkKernel::Motion. The fixes that move
+/// Stores velocities at the time of the positions of the particles of this rank and of ghosts, in
+/// two dimensions with the positions beside them: see LSMLinkKernel::Motion. The fixes that move
 /// particles set them, as LAMMPS' own velocities are half a step old when forces are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
