@@ -32,7 +32,7 @@ sys.path.insert(0, str(FOLDER.parent / "python"))
 sys.path.append(str(FOLDER.parent / "inputs/studies"))  # its recipes may have names of scripts of this folder
 import lsm  # noqa: E402
 import slip_or_exchange  # noqa: E402
-from lsm import LOADING, slip, summary  # noqa: E402
+from lsm import LOADING, scaling, slip, summary  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
 from lsm.tables import memory_of, number, read, update_table, write_table  # noqa: E402
@@ -121,7 +121,7 @@ def sources(runs):
 
 
 def rates():
-    """A row for each fault and length: rates of drops, and of those that are slip, of at least each size."""
+    """A row for each fault and length: rates of drops, and of those that are slip, of at least each size, and of ruptures per 120 length."""
     rows = []
     for fault in FAULTS:
         for length in LENGTHS:
@@ -130,6 +130,9 @@ def rates():
             for name, runs, measure in ("drops", every, drops), ("slips", worked, slips):
                 for least in SIZES:
                     row[f"{name}_{least:g}"], row[f"{name}_{least:g}_error"] = over(runs, lambda run: measure(run, least))
+            slipped = runs_of(fault, length, **RUPTURES)
+            row["packings_ruptures"] = len(slipped)
+            row["ruptures_0.01"], row["ruptures_0.01_error"] = over(slipped, ruptures_of(0.01))
             rows += [row] if every else []
     return rows
 
@@ -140,15 +143,15 @@ PANELS = """set key Left reverse
 set bars small
 row(name, y) = strcol(1) eq name ? y : NaN
 set xtics out nomirror
-set multiplot layout 1,2
 """
 
 
-def panel(columns, more=""):
-    """gnuplot's command that draws a panel. columns: of x, y and its error in a table that begins with the fault; more: further curves"""
+def panel(columns, more="", apart=0.05):
+    """gnuplot's command that draws a panel. columns: of x, y and its error in a table that begins with the fault; more: further curves;
+    apart: the faults, as a share of x"""
     x, y, error = columns
     curves = [
-        f"table u (row('{name}', ${x})*{1 + 0.03*(number - 1)}):{y}:{error} w yerrorbars lc {lc} pt {pt} ps point t '{name}'"
+        f"table u (row('{name}', ${x})*{1 + apart * (number - 1)}):{y}:{error} w yerrorbars lc {lc} pt {pt} ps point t '{name}'"
         for number, (name, lc, pt) in enumerate(STYLES)
     ]
     return "plot " + ", ".join([*([more] if more else []), *curves]) + "\n"
@@ -165,13 +168,17 @@ set ylabel 'number in 1000 time units'
 
 def rates_figure(base=FOLDER / "rates"):
     rows = rates()
-    write_table(f"{base}.csv", ["Rates in 1000 time units of drops of energy, and of those that are slip, of at least each size (faults.py)"], rows)
+    write_table(f"{base}.csv", [
+        "Rates in 1000 time units of drops of energy, and of those that are slip, of at least each size, and of ruptures of at least a work,",
+        "for 120 of the length (faults.py)"
+    ], rows)
     column = {name: 1 + number for number, name in enumerate(rows[0])}
-    script = PANELS + LENGTH_AXES + "set title 'all drops of 10^{-4} and more'\nset key bottom right\n"
+    script = PANELS + "set multiplot layout 1,3\n" + LENGTH_AXES + "set title 'all drops of 10^{-4} and more'\nset key bottom right\n"
     script += panel((2, column["drops_0.0001"], column["drops_0.0001_error"]), f"{PAPER} w l lw 2 dt 2 lc rgb '#666666' t 'paper'")
     script += "set title 'slips of 0.1 and more'\nset key top left\n"
     script += panel((2, column["slips_0.1"], column["slips_0.1_error"]), "1.5*x/120 w l lw 1 dt 3 lc rgb '#666666' t 'in proportion to the length'")
-    draw(base, script + "unset multiplot\n", 1000, 480)
+    script += "set title 'ruptures of 0.01 and more, per 120'\n" + panel((2, column["ruptures_0.01"], column["ruptures_0.01_error"]))
+    draw(base, script + "unset multiplot\n", 1400, 480)
 
 
 # ---- series picked again
@@ -327,7 +334,7 @@ def find_ruptures(*folders):
 
 
 VARIANTS, VARIED = FOLDER / "variants.csv", ("fine", "coarse", "wide")
-USUAL_RUNS = ("leaky_120_4", "reflecting_120_4", "absorbing_120_1")  # beside them
+USUAL_RUNS = (*(f"{fault}_120_{packing}" for fault in ("leaky", "reflecting") for packing in (4, 11, 12)), "absorbing_120_1")  # beside them
 NUMBERS = (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma_0.0001", "gamma_error_0.0001"), ("B", "B_0.0001", None),
            ("mean_time", "mean_time_0.0001", None))
 
@@ -574,7 +581,6 @@ set multiplot layout 1,3
 
 RUPTURE_SIZES = tuple(10**(k / 4) for k in range(-12, 3))
 RUPTURE_PLACES = (1, 2, 3, 4, 5, 7, 10, 14, 20, 28, 40, 56, 80, 113)
-SHOWN = (120, 480, 1890)  # lengths in the figure
 
 
 def per_length(run, chosen):
@@ -598,27 +604,29 @@ def rupture_rows():
 
 def ruptures_figure(base=FOLDER / "ruptures"):
     rows = rupture_rows()
+    leaky = {(row["length"], row["over"], row["x"]): row for row in rows if row["fault"] == "leaky"}
+    for row in rows:
+        beside = leaky[row["length"], row["over"], row["x"]]
+        row |= dict.fromkeys(("ratio", "ratio_error"), math.nan)
+        if row is not beside and beside["rate"] and row["rate"]:
+            ratio = row["rate"] / beside["rate"]
+            row |= dict(ratio=ratio, ratio_error=ratio * math.hypot(*(one["error"] / one["rate"] for one in (row, beside))))
     write_table(f"{base}.csv", [
         "Ruptures, in 1000 time units and 120 of the length, of at least a work of friction, or of at least so many places and a work of",
-        "0.001 (faults.py)"
+        "0.001; ratio: to those of the leaky fault of this length (faults.py)"
     ], rows)
-    script = """set key bottom left Left reverse
-set bars small
+    script = PANELS + """set key bottom left
 set logscale xy
-set yrange [0.01:100]
-set format y '10^{%L}'
-row(name, over, y) = strcol(1) eq name && $2 == 120 && strcol(3) eq over && $5 > 0 ? y : NaN
-set ylabel 'ruptures of at least this in 1000 time units'
+set xrange [0.8e-3:0.5]
+set format x '10^{%L}'
+set xlabel 'work of friction in the rupture'
+row(name, y) = strcol(1) eq name && $2 == 120 && strcol(3) eq 'work' && $5 > 0 ? y : NaN
 set multiplot layout 1,2
+set title 'ruptures of at least this work in 1000 time units'
+set yrange [0.03:100]
 """
-    for what, label, axis in (("work", "work of friction in the rupture", "set xrange [0.8e-3:1]\nset format x '10^{%L}'"),
-                              ("places", "length of the rupture", "set xrange [0.8:30]\nset xtics (1, 2, 5, 10, 20)\nset format x '%g'")):
-        curves = []
-        for n, (name, lc, pt) in enumerate(STYLES):
-            where = f"table u (row('{name}','{what}',$4)*{1 + 0.03 * (n - 1)})"
-            curves += [f"{where}:5:6 w yerrorbars lc {lc} pt {pt} ps point t '{name}'", f"{where}:5 w l lc {lc} lw 0.8 notitle"]
-        script += f"{axis}\nset xlabel '{label}'\nplot {', '.join(curves)}\n"
-    draw(base, script + "unset multiplot\n", 1000, 480)
+    script += panel((4, 5, 6)) + "set title 'the same over those of the leaky fault'\nset yrange [0.2:5]\nset ytics (0.25, 0.5, 1, 2, 4)\nunset key\n"
+    draw(base, script + panel((4, 8, 9), "1 w l lw 1 dt 2 lc rgb '#666666' notitle") + "unset multiplot\n", 1000, 480)
 
 
 # ---- half the velocity of the plates
@@ -638,9 +646,10 @@ def velocity_figure(base=FOLDER / "velocity"):
         "Rates of drops of at least a size at half the velocity of the plates over those at the full one, length 120: as they are picked (slow),",
         "and with the loading that lacks (loaded); errors from ten parts of the time (faults.py)"
     ], velocity_rows())
-    script = PANELS + """set logscale x
+    script = PANELS + """set multiplot layout 1,2
+set logscale x
 set xrange [0.6e-4:0.2]
-set yrange [0:1.3]
+set yrange [0:1.1]
 set format x '10^{%L}'
 set xtics 10
 set xlabel 'drops of at least this size'
@@ -649,7 +658,8 @@ unset key
 set title 'as the picker finds them'
 """
     guides = "1 w l lw 1 dt 2 lc rgb '#666666' notitle, 0.5 w l lw 1 dt 3 lc rgb '#666666' notitle"
-    script += panel((2, 3, 4), guides) + "unset ylabel\nset key bottom left\nset title 'with the missing loading added'\n" + panel((2, 5, 6), guides)
+    script += panel((2, 3, 4), guides, 0.2) + "unset ylabel\nset key bottom left\nset title 'with the missing loading added'\n"
+    script += panel((2, 5, 6), guides, 0.2)
     draw(base, script + "unset multiplot\n", 1000, 480)
 
 
@@ -679,9 +689,25 @@ def ratio_values():
         yield Value(f"ratio.{name}.most.{least}", max(ratios), n=len(ratios), source="values.csv")
 
 
+def scaling_values():
+    """How the characteristic size of drops and of ruptures goes with the length."""
+    for fault in FAULTS:
+        for name, recorded, least in ("drops", {}, 1e-3), ("ruptures", RUPTURES, 1e-2):
+            paths = [run.path for length in LENGTHS for run in runs_of(fault, length, **recorded)]
+            fit = scaling.scalings([scaling.load(path, LOADING) for path in paths], least)[0].fit
+            yield Value(f"scaling.{name}.{fault}", fit["D"], fit["D_error"], "", len(paths), f"{Path(PUBLISHED[fault][-1]).parent}/*")
+
+
+def growth_values():
+    """Rate of drops of the longest faults over that of the shortest."""
+    for fault in FAULTS:
+        (short, a), (long, b) = (over(runs_of(fault, length), lambda run: drops(run, 1e-4)) for length in (LENGTHS[0], LENGTHS[-1]))
+        yield Value(f"ratio.drops.lengths.{fault}", long / short, long / short * math.hypot(a / short, b / long), source="values.csv")
+
+
 def fit_values(postproc):
     """Exponent, gamma and B of all times of drops >= 1e-4, over all packings, and of those that nobody fitted also the mean time, of each."""
-    met, printed = {}, {"exponent": (f"exponent_{RANGE}", 1.07, 0.07), "gamma": ("gamma_0.0001", 0.995, 0.1)}
+    printed = {"exponent": (f"exponent_{RANGE}", 1.07, 0.07), "gamma": ("gamma_0.0001", 0.995, 0.1)}
     for fault in FAULTS:
         every = [run for length in LENGTHS for run in runs_of(fault, length)]
         rows = summary.rows_of(postproc, [run.path for run in every], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
@@ -699,8 +725,11 @@ def fit_values(postproc):
         met = {key: [abs(float(row[column]) - value) <= by for row in rows] for key, (column, value, by) in printed.items()}
         met["B"] = [abs(math.log(float(row["B_0.0001"]) / 15.21)) <= 0.2 for row in rows]
         for key, some in {**met, "together": [all(three) for three in zip(*met.values())]}.items():
-            yield Value(f"within.{key}.{fault}", sum(some), n=len(rows), source="values.py")
+            new = [near for run, near in zip(every, some) if run.packing > 10]
+            yield Value(f"within.{key}.{fault}", sum(some), n=len(rows), source="values.csv")
+            yield Value(f"within.new.{key}.{fault}", sum(new), n=len(new), source="values.csv")
         yield Value(f"within.runs.{fault}", len(rows))
+        yield Value(f"within.new.runs.{fault}", sum(run.packing > 10 for run in every))
 
 
 def velocity_values():
@@ -752,12 +781,14 @@ def threshold_values():
 
 def variant_values():
     """Drops >= 1e-4 with blocks twice as wide over those of the usual width."""
-    rows = {row["run"]: row for row in read(VARIANTS)}
+    rows, ratios = {row["run"]: row for row in read(VARIANTS)}, {}
     for usual in USUAL_RUNS:
         fault, length, packing = usual.split("_")
-        (value, error), (full, of_full) = ((float(rows[run]["drops"]), float(rows[run]["drops_error"]))
-                                           for run in (f"{fault}_wide_{length}_{packing}", usual))
-        yield Value(f"variant.drops.wide.{fault}", value / full, value / full * math.hypot(error / value, of_full / full), "", 1, "variants.csv")
+        if wide := rows.get(f"{fault}_wide_{length}_{packing}"):
+            (value, error), (full, of_full) = ((float(row["drops"]), float(row["drops_error"])) for row in (wide, rows[usual]))
+            ratios.setdefault(fault, []).append((value / full, value / full * math.hypot(error / value, of_full / full)))
+    for fault, some in ratios.items():
+        yield Value(f"variant.drops.wide.{fault}", *mean_and_error(*zip(*some)), "", len(some), "variants.csv")
 
 
 def work(run):
@@ -829,8 +860,9 @@ def all_values(postproc):
         *values_of("budget.work.{}", work, "energy/1000", **SLIPS), *values_of("budget.share.{}", share_of_large, **SLIPS),
         *values_of("share.mirror.{}", slip_of_middle, **SLIPS),
         *values_of("share.random.{}", lambda run: slip_of_middle(run, "chance"), column="chance"),
-        *values_of("crossing.shuffled.{}", lambda run: after_crossings(run)[1]), *ratio_values(), *fit_values(postproc), *velocity_values(),
-        *estimator_values(), *burst_values(), *threshold_values(), *variant_values(), *spectrum_values(), *cut_values(postproc)
+        *values_of("crossing.shuffled.{}", lambda run: after_crossings(run)[1]), *ratio_values(), *growth_values(), *scaling_values(),
+        *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *threshold_values(), *variant_values(), *spectrum_values(),
+        *cut_values(postproc)
     ]
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from lsm import LOADING, paper, scaling
+from lsm import paper
 from lsm.analysis import mean_and_error, numbers_of
 from lsm.tables import number, read
 import fault_3d
@@ -38,7 +38,7 @@ CELLS = (
     Cell("single.ledger", "accuracy_fault.csv", "error_ledger", {"variant": "standard", "method": "located", "dt": "0.03"}),
     Cell("absorbing_step.released", "accuracy_catalogues.csv", "released", {"dt": "0.12", "onset": "located"}, "released_error"),
 )
-COSTS = {"ledger": "energy ledger", "pressure": "pressure every step"}
+COSTS = {"ledger": "energy ledger", "location": "location of events", "pressure": "pressure every step"}
 SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
 NATURE = (("distance", "fault_1890", "fault 1890", "0.0001"), ("distance", "california_2.5", "Southern California", "5623.4132519034911"),
           ("distance", "two_faults", "2 faults 945 apart", "0.0001"), ("b", "fault_1890", "fault 1890", "0.0001"),
@@ -69,15 +69,6 @@ def slider_values(postproc):
             yield Value(f"slider.{name}.{what}", choose(found), float("nan"), "", len(found), "catalogues/slider_ours_*")
 
 
-def scaling_values():
-    """How the characteristic size of drops and of ruptures of the absorbing fault goes with its length."""
-    for name, kind, least in ("drops", "catalogue", 1e-3), ("ruptures", "ruptures", 1e-2):
-        paths = sorted((FOLDER / "campaign").glob(f"fault_*.{kind}.csv.xz"),
-                       key=lambda path: [int(word) for word in path.name.split(".")[0].split("_")[1:]])
-        found, = scaling.scalings([scaling.load(path, LOADING) for path in paths], least)
-        yield Value(f"scaling.{name}", found.fit["D"], found.fit["D_error"], "", len(paths), f"campaign/fault_*.{kind}.csv.xz")
-
-
 def speed_values():
     """How many times as many particle-steps we make as others on one and two cores, what options cost, and whole jobs."""
     file = "speed/timings.csv"
@@ -87,17 +78,15 @@ def speed_values():
             if (label, ranks) in found:
                 ratio = speed_tables.ratio_of(found[label, ranks], found["ours", ranks])
                 yield Value(f"speed.{key}.{ranks}", ratio, float("nan"), "", len(found[label, ranks]), file)
-    yield Value("speed.esys_native.1", speed_tables.ratio_of(found["ESyS-Particle, -march=native", 1], found["ours", 1]), source=file)
     for ranks in (1, 2):
-        native = [label for label, at in found if at == ranks and "native" in label and not label.startswith(("ours", "ESyS"))]
+        native = [label for label, at in found if at == ranks and "native" in label and not label.startswith("ours")]
         yield Value(f"speed.native.{ranks}", min(speed_tables.ratio_of(found[label, ranks], found["ours", ranks]) for label in native), source=file)
         over = [float(row[f"harmonic_{ranks}"]) for row in speed_tables.machines()]
         for name, choose in ("least", min), ("most", max):
             yield Value(f"speed.machines.harmonic.{ranks}.{name}", choose(over), n=len(over), source="speed/machines.csv")
-        at = {label: speed_tables.middle(rounds) for (label, _, n), rounds in speed_tables.timings("paper").items() if n == ranks}
-        rest, shear = at["at rest; contacts between the blocks"], at["the reflecting fault in shear"]
+        rest, shear = (speed_tables.middle(speed_tables.timings(table)[label, 1890, ranks])
+                       for table, label in (("lengths", "ours"), ("campaign", "slice")))
         yield Value(f"speed.shear.{ranks}", shear / rest, source=file)
-        yield Value(f"speed.shear_all.{ranks}", shear / at["at rest; contacts of all discs"], source=file)
     features = {key[0]: rounds for key, rounds in speed_tables.timings("features").items()}
     cost = {label: speed_tables.ratio_of(features[label], features["base of " + label]) for label in speed_tables.CHANGES}
     for key, label in COSTS.items():
@@ -109,15 +98,10 @@ def speed_values():
     yield Value("speed.cost.law", max(cost[label] for label in speed_tables.LAWS), n=len(speed_tables.LAWS), source=file)
     for name in "contacts", "records":
         yield Value(f"speed.saved.{name}", 1 - speed_tables.saved(SAVED[name]), source=file)
-    shear = {}
-    for row in read(FOLDER / "speed/shear.csv"):
-        shear.setdefault(row["what"], []).append(float(row["ns_per_particle_and_step"]))
-    for name, what in ("built", "in shear, lists built anew"), ("added", "in shear, pairs added"):
-        yield Value(f"speed.lists.{name}", median(shear[what]) - median(shear["before the shear, lists built anew"]), source="speed/shear.csv")
     rows = read(FOLDER / "speed/slider.csv")
     for scheme in "printed", "verlet":
-        dense, active = (median(float(row[key]) for row in rows if row["scheme"] == scheme) for key in ("scalar_s", "active_s"))
-        yield Value(f"speed.active.{scheme}", dense / active, source="speed/slider.csv")
+        plain, active = (median(float(row[key]) for row in rows if row["scheme"] == scheme) for key in ("scalar_s", "active_s"))
+        yield Value(f"speed.active.{scheme}", plain / active, source="speed/slider.csv")
     rates = {row["run"]: float(row["time_per_core_hour"]) for row in read(FOLDER / "speed/whole-job.csv")}
     for name, run in ("same", "ours_0.06"), ("usual", "ours_0.12"):
         yield Value(f"speed.job.{name}", rates[run] / rates["ESyS-Particle"], source="speed/whole-job.csv")
@@ -175,6 +159,6 @@ def law_values():
 
 def all_values(postproc):
     return [
-        *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *scaling_values(),
-        *speed_values(), *sources.source_values(), *fault_3d.all_values(), *validation_tables.rupture_values()
+        *(cell.value() for cell in CELLS + BEYOND), *calibration_values(), *slow_values(), *law_values(), *slider_values(postproc), *speed_values(),
+        *sources.source_values(), *fault_3d.all_values(), *validation_tables.rupture_values()
     ]

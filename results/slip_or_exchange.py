@@ -78,18 +78,21 @@ def stretch(run, begin, end):
 
 
 def figure(base, *stretches):
-    script = f"set multiplot layout 3,{len(stretches) // 3} columnsfirst margins 0.08,0.98,0.09,0.94 spacing 0.1,0.05\nunset key\n"
-    for title, run, begin, end in zip(("reflecting", "leaky", "absorbing"), *[iter(stretches)] * 3):
-        begin, end = float(begin), float(end)
-        lines, spans = stretch(run, begin, end)
+    runs = [(title, float(begin), float(end), *stretch(run, float(begin), float(end)))
+            for title, run, begin, end in zip(("reflecting", "leaky", "absorbing"), *[iter(stretches)] * 3)]
+    # Equal scales beside each other: energies begin at the least of the stretch
+    highest = [1.05 * max(np.ptp(lines[k][1]) if k == 0 else lines[k][1].max() for _, _, _, lines, _ in runs) for k in range(3)]
+    script = f"set multiplot layout 3,{len(runs)} columnsfirst margins 0.08,0.98,0.09,0.94 spacing 0.08,0.05\nunset key\n"
+    for title, begin, end, lines, spans in runs:
         script += "unset object\n" + "".join(
-            f"set object {n} rect from {a - begin:.2f},graph 0 to {z - begin:.2f},graph 1 fc rgb '{'#f3b26b' if slip else '#c3dcf2'}' fs solid noborder behind\n"
+            f"set object {n} rect from {a - begin:.2f},graph 0 to {z - begin:.2f},graph 1 fc rgb '{'#c9b5e0' if slip else '#dddddd'}' fs solid noborder behind\n"
             for n, (a, z, slip) in enumerate(spans, 1))
-        for label, (x, y) in zip(("potential energy", "kinetic energy", "frictional work per time"), lines):
-            first, last = label == "potential energy", label == "frictional work per time"
-            script += f"set title '{title if first else ''}'\nset xlabel '{'time' if last else ''}'\nset ylabel '{label}'\nset format x '{'%g' if last else ''}'\n"
-            script += f"set xrange [0:{end - begin:g}]\nset yrange [{'*' if first else 0}:*]\nset datafile separator\nplot '-' w l lt 8\n"
-            script += "\n".join(f"{a - begin:.3f} {b:.6g}" for a, b in zip(x, y)) + "\ne\n"
+        for label, (x, y), most in zip(("potential energy", "kinetic energy", "frictional work per time"), lines, highest):
+            first, last, left = label == "potential energy", label == "frictional work per time", title == runs[0][0]
+            script += f"set title '{title if first else ''}'\nset xlabel '{'time' if last else ''}'\nset format x '{'%g' if last else ''}'\n"
+            script += f"set ylabel '{label if left else ''}'\n"
+            script += f"set xrange [0:{end - begin:g}]\nset yrange [0:{most:.3g}]\nset datafile separator\nplot '-' w l lt 8\n"
+            script += "\n".join(f"{a - begin:.3f} {b - (y.min() if first else 0):.6g}" for a, b in zip(x, y)) + "\ne\n"
     draw(base, script + "unset multiplot", 1400, 760)
 
 

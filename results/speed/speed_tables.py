@@ -60,15 +60,14 @@ def speed_peers_table():
 
 def speed_lengths_table():
     out = []
-    for table, lengths in ("lengths", (120, 945, 1890, 3780)), ("paper", (1890,)):
+    for table, what, lengths in ("lengths", "at rest", (120, 945, 1890, 3780)), ("campaign", "in shear", (120, 945, 1890)):
         found = timings(table)
-        for label, length in dict.fromkeys(key[:2] for key in found):
-            one, two = found.get((label, length, 1)), found.get((label, length, 2))
-            if length in lengths and one and two:
-                out.append([
-                    f"{length}" if table == "lengths" else f"{length}, {label}", f"{middle(two, 'atoms'):.0f}", f"{middle(one):.1f}",
-                    f"{middle(two):.1f}", *(f"{middle(two, key):.2f}" for key in ("bond", "pair", "modify", "comm", "neigh"))
-                ])
+        for label, length in sorted({key[:2] for key in found if key[1] in lengths}, key=lambda one: one[1]):
+            one, two = found[label, length, 1], found[label, length, 2]
+            out.append([
+                f"{length}, {what}", f"{middle(two, 'atoms'):.0f}", f"{middle(one):.1f}", f"{middle(two):.1f}",
+                *(f"{middle(two, key):.2f}" for key in ("bond", "pair", "modify", "comm", "neigh"))
+            ])
     return ["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication", "lists"], out
 
 
@@ -89,7 +88,7 @@ def speed_changes_table():
 def machines():
     """Million particle-steps per second, and how many times those of bond harmonic, on 1 and 2 ranks of each machine; the first is that of the table of peers."""
     found = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}
-    here = {"machine": "Intel Xeon"}
+    here = {"machine": "AMD Zen 4"}
     for ranks in (1, 2):
         here |= {
             f"millions_{ranks}": f"{1e3 / middle(found['ours', ranks]):.0f}",
@@ -149,15 +148,35 @@ def speed_saved_table():
     return ["not in the scene", "time of a step over that with it"], [[name, f"{saved(name):.2f}"] for name in LEFT_OUT]
 
 
+LONG = 1e5 / 0.03  # steps of 1e5 time units
+DEFAULT = 36000 / 0.03  # of a default run
+
+
+def before():
+    """Times of a step of the leaky fault in shear before its dashpots were stored beside the positions, over those after it, by length."""
+    found = {}
+    for row in read(FOLDER / "before.csv"):
+        found.setdefault(int(row["length"]), {}).setdefault(row["program"], []).append(float(row["ns"]))
+    return {length: statistics.median(a / b for a, b in zip(some["before"], some["after"])) for length, some in found.items()}
+
+
 def speed_jobs_table():
-    """A default run of 1.2e6 steps, from the steady state of the reflecting fault with ruptures recorded."""
-    found, out = timings("campaign"), []
+    """A default run, and 1e5 time units, from the steady state of the leaky fault with ruptures recorded."""
+    found, out, hours, earlier = timings("campaign"), [], [], before()
     for length in sorted({key[1] for key in found}):
         rounds = {ranks: one for (_, at, ranks), one in found.items() if at == length}
         one = [middle(rounds[ranks]) for ranks in (1, 2)]
         atoms = middle(rounds[1], "atoms")
-        out.append([f"{length}", f"{atoms:.0f}", *(f"{ns:.1f}" for ns in one), *(f"{ns * atoms * 1.2e6 * 1e-9 / 60:.1f}" for ns in one)])
-    return ["length", "particles", "ns for a particle and step, 1 rank", "2 ranks", "1.2e6 steps: minutes, 1 rank", "2 ranks"], out
+        hours += [[one[0] * atoms * LONG * 1e-9 / 3600 * times for times in (1, earlier[length])]]
+        out.append([
+            f"{length}", f"{atoms:.0f}", *(f"{ns:.1f}" for ns in one), *(f"{ns * atoms * DEFAULT * 1e-9 / 60:.1f}" for ns in one),
+            *(f"{one:.2f}" for one in hours[-1])
+        ])
+    out.append(["all", *[""] * 5, *(f"{sum(some):.1f}" for some in zip(*hours))])
+    return [
+        "length", "particles", "ns for a particle and step, 1 rank", "2 ranks", "default run (1.2e6 steps): minutes, 1 rank", "2 ranks",
+        "1e5 time units: CPU hours", "before"
+    ], out
 
 
 def speed_lattice_table():
@@ -218,14 +237,14 @@ def picture(base):
     draw(base, "".join([
         "set datafile separator\nset multiplot\nunset grid\nset grid xtics\nset style fill solid noborder\nset boxwidth 0.7\n",
         "set lmargin at screen 0.33\nset rmargin at screen 0.56\nset bmargin at screen 0.58\nset tmargin at screen 0.93\n",
-        "set title 'fault of length 1890 beside other programs'\nset xlabel 'million particle-steps/s'\nset logscale x\nset xrange [0.3:200]\n",
+        "set title 'fault of length 1890 beside other programs'\nset xlabel 'million particle-steps/s'\nset logscale x\nset xrange [0.3:500]\n",
         f"set yrange [-{len(peers)}:1]\nset key left center Left reverse\n",
         "plot '-' using 2:(-$0):ytic(1) w p lt 1 t '1 rank', '-' using 4:(-$0) w p lt 2 t '2 ranks'\n", rows(peers), rows(peers),
         "unset logscale\nset lmargin at screen 0.78\nset rmargin at screen 0.99\nset title 'cost of one change, 2 ranks'\n",
         f"set xlabel 'time of a step, ratio'\nset xrange [0.5:2]\nset yrange [-{len(changes)}:1]\nunset key\nset arrow 1 from 1,graph 0 to 1,graph 1 nohead lt 8 dt 2\n",
         "plot '-' using ($2 < 2 ? $2 : 1.97):(-$0):ytic(1) w p lt 1, '-' using ($2 < 2 ? NaN : 1.9):(-$0):2 w labels right\n", rows(changes), rows(changes),
-        "unset arrow\nset lmargin at screen 0.33\nset bmargin at screen 0.14\nset tmargin at screen 0.45\nset title 'parts of a step of faults of these lengths, 2 ranks (first four: Zen 3, others: Xeon)'\n",
-        f"set xlabel 'ns for a particle and step'\nset xrange [0:13]\nset yrange [-{len(steps)}:1]\nset key at screen 0.5,0.01 center bottom horizontal samplen 2 Left reverse\nplot ",
+        "unset arrow\nset lmargin at screen 0.33\nset bmargin at screen 0.14\nset tmargin at screen 0.45\nset title 'parts of a step of faults of these lengths, 2 ranks'\n",
+        f"set xlabel 'ns for a particle and step'\nset xrange [0:9]\nset yrange [-{len(steps)}:1]\nset key at screen 0.5,0.01 center bottom horizontal samplen 2 Left reverse\nplot ",
         ", ".join(f"'-' using (0):(-$0):(0):({'+'.join(f'${5 + m}' for m in range(k + 1))}):(-$0-0.35):(-$0+0.35)"
                   f"{':ytic(1)' if k == 3 else ''} w boxxyerror lt {k + 1} notitle" for k in (3, 2, 1, 0)),
         *(f", keyentry w boxes lt {k} t '{part}'" for k, part in enumerate(parts, 1)), "\n", rows(steps) * 4, "unset multiplot"

@@ -32,7 +32,6 @@ HOURS = 24 * 3600  # no run takes as long
 COLUMNS = ("table", "label", "length", "ranks", "round", "atoms", "steps", "seconds", "cpu_percent", *PARTS, "resident")
 # What is changed in a slice of a run, before it
 CHANGES = {
-    "contacts between the blocks only": "pair_coeff * * off\n" + "".join(f"pair_coeff {pair} 1.0 ${{kt}}\n" for pair in ("1 2", "1 4", "2 3", "3 4")),
     "nothing recorded": 'thermo_style custom step\nuncompute events\nif "$(is_defined(compute,ruptures))" then "uncompute ruptures"\n',
     "lists never rebuilt": "neigh_modify delay 0 every 1000000 check no\n",
 }
@@ -349,13 +348,14 @@ class Bench:
         length = self.cause_length
         self.scene(length)
         self.scene(length, "all")
-        before = self.run_of_fault("before", steps=0, preset="absorbing")
+        before = self.run_of_fault("before", steps=0)
+        between = self.run_of_fault("between", steps=2000 if self.quick else 240000, ruptures="yes", contacts="fault")
         for number in self.in_rounds("causes"):
             self.ours("causes", "scene of the comparisons", length, 1, number)
             self.ours("causes", "with contacts of all discs", length, 1, number, name="_all", contacts="all")
             self.slice("causes", "default scene before the shear", before, 1, number)
-            for label in ("in shear as in the campaign", "contacts between the blocks only", "neither location nor ruptures", "nothing recorded",
-                          "lists never rebuilt"):
+            self.slice("causes", "contacts between the blocks only", between, 1, number)
+            for label in ("in shear as in the campaign", "neither location nor ruptures", "nothing recorded", "lists never rebuilt"):
                 self.slice("causes", label, self.runs / f"fault_{length}_1", 1, number)
 
     def campaign(self):
