@@ -122,16 +122,6 @@ def test_a_checkpoint_of_another_program_version(slider, ran):
     same("whole.csv", "part.csv")
 
 
-@pytest.mark.parametrize("by, events", [(signal.SIGTERM, ""), (signal.SIGKILL, "--events ruptures --rupture-gap 0.2 ")])
-def test_interrupted(slider, ran, by, events):
-    settings = SHORT + "--steps 3000000 --pe-stride 1000 --columns centroid,length " + events
-    ran(settings, "--catalogue whole.csv --pe-series whole.pe")
-    interrupted(slider, settings + PART, 3, [by])
-    ran(settings, PART, "--resume")
-    same("whole.csv", "part.csv")
-    same_bytes("whole.pe", "part.pe")
-
-
 # What is refused: the arguments, or the text of a configuration or stiffness file, and what the one line of error says.
 BAD = """
     --frobnicate 3                                 | frobnicate
