@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from data_files import header, same_bytes
-from programs import INPUTS, refused, run, scene, start
+from programs import refused, run, scene, start
 from variables import declared
 
 SMALL = dict(length=20, width=15, settle=100, velocity=0.01, checkpoint=400, location="yes")
@@ -82,32 +82,6 @@ def go_on():
     """Words of the next part, from the newest complete restart file or from the beginning."""
     steps = restart_steps()
     return dict(restart=f"a.restart.{steps[-1]}") if steps else dict(overwrite="yes")
-
-
-def test_killed(lmp):
-    """A run that spends most of its time on restart files is killed again and again."""
-    often = dict(checkpoint=2, prefix="a", steps=300)
-    os.mkdir("whole")
-    run(lmp, small(**often), cwd="whole")
-    moments = random.Random(1)
-    for rounds in range(60):
-        if Path("a.restart.end.info").exists():
-            break
-        # A file without .info is refused; one that has it is complete.
-        for path in Path().glob("a.restart.*"):
-            if path.suffix not in (".info", ".new") and not Path(f"{path}.info").exists():
-                said = run(lmp, small(**often, restart=path), status=1)
-                assert f"its checksum file {path}.info is missing" in said.out
-        # The run is killed once there are some more restart files.
-        until = (restart_steps() or [100])[-1] + 40 + moments.randrange(20)
-        with start(lmp, small(**often, **go_on())) as child:
-            child.until(lambda: any(until <= step < 396 for step in restart_steps()))
-            child.kill()
-    else:
-        pytest.fail("no end in 60 rounds")
-    assert rounds >= 4, f"killed {rounds} times only"
-    for name in "a.catalogue.csv", "a.pe.bin":
-        same_bytes(name, f"whole/{name}")
 
 
 FILES = "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin"

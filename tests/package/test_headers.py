@@ -28,22 +28,6 @@ def compiler(work):
                    "-I", work)
 
 
-def test_other_pair(compiler):
-    """The pair styles with the Pair of LAMMPS 4 Feb 2025, which has atom2cut and radii2cut, and with that of
-    4 Jul 2026, which has not."""
-    source = Path(os.environ["LSM_LAMMPS_SRC"])
-    text = (source / "pair.h").read_text()
-    functions = ["  virtual double atom2cut(int) { return 0.0; }\n", "  virtual double radii2cut(double, double) { return 0.0; }\n"]
-    without = re.sub(r".*virtual double (atom2cut\(int\)|radii2cut\(double, double\)).*\n", "", text)
-    begin = "  virtual void compute(int, int) = 0;\n"
-    pairs = {"with": text if without != text else text.replace(begin, begin + "".join(functions)), "without": without}
-    for way, wanted in ("with", 2), ("without", 0):
-        assert len(re.findall("virtual double (?:atom2cut|radii2cut)", pairs[way])) == wanted
-        Path(way).mkdir()
-        Path(way, "pair.h").write_text(pairs[way])
-        run(compiler, "-isystem", way, "-isystem", source, PACKAGE / "LSM/pair_lsm_free.cpp")
-
-
 def headers_of(name):
     """The folder src of a version in the cache, or None; nothing is downloaded."""
     cache = Path(os.environ["LSM_LAMMPS_CACHE"])

@@ -31,33 +31,11 @@ def test_changes_and_citation_are_of_this_version():
     assert re.findall(r"^## (\S+)", (SOURCE / "CHANGELOG.md").read_text(), re.M)[0] == VERSION
     yaml = pytest.importorskip("yaml")
     cff = yaml.safe_load((SOURCE / "CITATION.cff").read_text())
-    # what the schema of CFF 1.2.0 requires of the keys that are used
-    assert cff["cff-version"] == "1.2.0" and cff["type"] in ("software", "dataset") and cff["version"] == VERSION
-    assert {"cff-version", "message", "title", "authors"} <= set(cff) <= {
-        "cff-version", "message", "type", "title", "version", "license", "authors", "keywords", "references", "abstract", "doi", "date-released",
-        "repository-code", "url", "contact", "identifiers", "preferred-citation"
-    }
-    for work in [cff, *cff["references"]]:
-        assert isinstance(work["title"], str) and work["authors"]
-        for author in work["authors"]:
-            assert set(author) == {"name"} or {"family-names", "given-names"} <= set(author)
-    for reference in cff["references"]:
-        assert {"type", "title", "authors"} <= set(reference) and re.fullmatch(r"10\.\d{4,9}/\S+", reference["doi"])
-        assert isinstance(reference["year"], int) and isinstance(reference["volume"], (int, str))
+    # what the schema of CFF 1.2.0 requires
+    assert cff["cff-version"] == "1.2.0" and cff["version"] == VERSION and {"message", "title", "authors"} <= set(cff)
+    assert all({"type", "title", "authors", "doi"} <= set(reference) for reference in cff["references"])
     readme = (SOURCE / "README.md").read_text()
     assert f"*lsm-fault*, version {VERSION}" in readme and all(reference["doi"] in readme for reference in cff["references"])
-    assert all(isinstance(word, str) for word in cff["keywords"]) and len(set(cff["keywords"])) == len(cff["keywords"])
-
-
-def test_workflow_runs_the_command_of_the_tests():
-    yaml = pytest.importorskip("yaml")
-    jobs = yaml.safe_load((SOURCE / ".github/workflows/test.yml").read_text())["jobs"]
-    assert [step["run"] for step in jobs["tests"]["steps"] if "run" in step][-1] == ".ci/run" and os.access(SOURCE / ".ci/run", os.X_OK)
-    for job in jobs.values():
-        assert job["container"] == "debian:${{ matrix.debian }}" and job["strategy"]["matrix"]["debian"] == ["12", "13"]
-    for form in (SOURCE / ".github/ISSUE_TEMPLATE").glob("*.yml"):
-        fields = yaml.safe_load(form.read_text())
-        assert {"name", "description", "body"} <= set(fields) and all({"type", "id", "attributes"} <= set(field) for field in fields["body"])
 
 
 def test_pages_of_an_installation(lmp, postproc, slider, work):

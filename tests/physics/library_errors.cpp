@@ -8,7 +8,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 
 #define LAMMPS_LIB_MPI
@@ -87,8 +86,7 @@ int main(int argc, char **argv) {
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   signal(SIGXFSZ, SIG_IGN);
-  if (rank == 0)
-    for (const char *file : {"there.csv", "new.pe", "full.pe"}) std::remove(file);
+  if (rank == 0) std::remove("full.pe");
   MPI_Barrier(MPI_COMM_WORLD);
   const std::string start = "fix move all lsm/nve\n";
 
@@ -103,21 +101,6 @@ int main(int argc, char **argv) {
       "p all lsm/plates a b "
       "stress 1\nrun 1\n",
       "is in both plates");
-
-  // A catalogue that exists already.
-  if (rank == 0) std::ofstream("there.csv") << "events\n";
-  MPI_Barrier(MPI_COMM_WORLD);
-  Session().fails(
-      start + "compute events all lsm/events catalogue there.csv series new.pe\nrun 10\n",
-      "there.csv exists");
-  if (rank == 0) {
-    std::string line;
-    std::getline(std::ifstream("there.csv"), line);
-    if (line != "events" || std::ifstream("new.pe").good()) {
-      ++failures;
-      std::fprintf(stderr, "FAILED: a refused run changed its files\n");
-    }
-  }
 
   // A disk that becomes full during a run, which only rank 0 notices.
   {

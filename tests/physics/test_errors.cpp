@@ -69,11 +69,6 @@ TEST_F(BadInput, MessagesPointToTheWord) {
   EXPECT_EQ(run.output.find("Last input line"), std::string::npos) << run.output;
 }
 
-TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
-  refused({"viscosity", "-1"}, fault_read() + "fix a all lsm/nve viscosity -1\n", {}, 2);
-  refused({"stability limit"}, fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}}, 2);
-}
-
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
   std::string script = fault_read() + fault_shear(
                                           "catalogue blown.csv series blown.pe emergency "

@@ -313,27 +313,6 @@ TEST_F(Extremes, OneDiscAndNoContacts) {
   outcome("no contacts at all", "right; no energy and no event");
 }
 
-TEST_F(Reproducible, SameBytesFromSameRanks) {
-  const std::string script = fault_read() +
-                             fault_shear("catalogue again.csv series again.pe location yes") +
-                             "thermo 500\nrun 6000\nwrite_restart again.restart\n";
-  for (int ranks : {1, 4}) {
-    std::string catalogue, series;
-    for (int round = 0; round < 2; ++round) {
-      ran(script, {}, ranks);
-      const std::string a = read_file(path("again.csv")), b = read_file(path("again.pe"));
-      if (round == 0) {
-        catalogue = a;
-        series = b;
-      } else {
-        EXPECT_TRUE(a == catalogue) << ranks << " ranks";
-        EXPECT_TRUE(b == series) << ranks << " ranks";
-      }
-    }
-    EXPECT_GT(unit::read_catalogue(path("again.csv")).events.size(), 2u);
-  }
-}
-
 TEST_F(Reproducible, LinksAreSummedInTheOrderOfTheirNumbers) {
   // Particles are sorted in memory as they move, and a run from a restart file begins with the
   // order of the file: the forces of many links on a disc, and their energy, have the same digits

@@ -270,37 +270,6 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
   }
 }
 
-TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
-  // One block of Sect. 3: K_l = 0.01, V = 0.01, M = 1. The contact's spring is stiff, and a little
-  // viscosity damps its oscillation before the next slip.
-  Slider s;
-  s.law = "velocity-weakening";
-  s.coefficients = "mu 0.8 vc 1";
-  s.stiffness = 0.1;
-  s.speed = 0.04;
-  s.viscosity = 0.1;
-  s.time = 800.0;
-  s.every = 0.1;
-  const double period = mean_period(starts(run_slider(s), 0.1));
-
-  // The reference is a block without a contact spring, which slips from the strength 0.8 on under
-  // the velocity-weakening law.
-  const Motion slip =
-      integrate({0.0, 1e-9}, 40.0, 0.001, [&s](double t, const double *y, double *dy) {
-        dy[0] = y[1];
-        dy[1] = 0.8 + s.stiffness * (s.speed * t - y[0]) - 0.8 / (1.0 + std::max(0.0, y[1])) -
-                s.viscosity * y[1];
-      });
-  double distance = 0.0;
-  for (std::size_t n = 1; n < slip.t.size() && distance == 0.0; ++n)
-    if (slip.t[n] > 1.0 && slip.v[n] <= 0.0) distance = slip.u[n];
-  ASSERT_GT(distance, 0.1);
-  // Slip starts sooner because of the velocity of the contact's spring at failure, but its distance
-  // is the same.
-  const double theory = distance / s.speed;
-  EXPECT_NEAR(period, theory, 0.005 * theory);
-}
-
 // ---- rate and state ----
 
 namespace {
@@ -363,24 +332,6 @@ TEST_F(Laws, RateStateIsStableAboveTheCriticalStiffnessOnly) {
       EXPECT_NEAR(rate, theory, 0.25 * std::fabs(theory));
       EXPECT_LT(worst, 0.03 * largest);
     }
-}
-
-TEST_F(Laws, RateStateStickSlipPeriodAsTheReference) {
-  for (const char *evolution : {"ageing", "slip"}) {
-    Slider s = rate_state_slider(evolution, 0.5, 4e-3);
-    s.pull = kMu + 1e-3;
-    s.time = 400.0;
-    s.every = 0.05;
-    s.dt = 0.005;
-    const Motion m = run_slider(s),
-                 reference = rate_state_reference(s, s.law == "rate-state-ageing");
-    const auto ours = starts(m, 3.0 * s.speed), exact = starts(reference, 3.0 * s.speed);
-    ASSERT_GE(exact.size(), 5u);
-    ASSERT_GE(ours.size(), 5u);
-    const double period = mean_period({ours.end() - 4, ours.end()}),
-                 theory = mean_period({exact.end() - 4, exact.end()});
-    EXPECT_NEAR(period, theory, 0.01 * theory);
-  }
 }
 
 // ---- every law on a fault ----

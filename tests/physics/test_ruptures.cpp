@@ -356,19 +356,6 @@ TEST_F(Ruptures, SlipAndWorkOfTheFaultAddUp) {
   }
 }
 
-TEST_F(Ruptures, OfAFaultAgreeOnAllRankCounts) {
-  std::vector<LSM::Rupture> one;
-  for (int ranks : {1, 2, 4}) {
-    SCOPED_TRACE(ranks);
-    const std::string prefix = "ranks" + std::to_string(ranks);
-    ran(sheared(found + std::string("slipping 1")) + "run 3000\n", {{"prefix", prefix}}, ranks);
-    const auto events = unit::read_catalogue<LSM::Rupture>(path(prefix + ".csv")).events;
-    if (ranks == 1) one = events;
-    EXPECT_GT(events.size(), 2u);
-    expect_same_ruptures(one, events, 1e-6);
-  }
-}
-
 // The restart file is written within an interval, with ruptures open.
 TEST_F(Ruptures, GoOnFromARestartFile) {
   for (int ranks : {1, 2}) {

@@ -69,14 +69,6 @@ TEST_F(PWave, LatticeScalesWithStiffnessMassAndRadius) {
   EXPECT_NEAR(r.value("p_wave_speed"), theory, 0.01 * theory);
 }
 
-TEST_F(PWave, LatticeOnSeveralRanks) {
-  const double one = ran_scene("p_wave_lattice.in").value("p_wave_speed");
-  for (int ranks : {2, 4})
-    for (const char *newton : {"on", "off"})
-      EXPECT_NEAR(ran_scene("p_wave_lattice.in", {{"newton", newton}}, ranks).value("p_wave_speed"),
-                  one, 1e-8);
-}
-
 // Position of half the height on the leading edge of the pulse, from the first layer above
 // y = middle.
 static double front(const std::vector<std::pair<double, double>> &layers, double middle) {

@@ -20,7 +20,7 @@
 using namespace LSM;
 using namespace LSM::postproc;
 using unit::contains;
-using unit::message_of;
+using unit::expect_error;
 using unit::spill;
 
 namespace {
@@ -80,6 +80,12 @@ EarthquakeList read(const std::string &content, bool lenient = false) {
   return read_earthquakes(bytes, detect_format(content), lenient);
 }
 
+void refused(const std::string &content, const std::string &says, const std::string &format = "") {
+  unit::TextBytes bytes(content, "file");
+  const std::string read_as = format.empty() ? detect_format(content) : format;
+  expect_error<FileError>([&] { read_earthquakes(bytes, read_as, false); }, says);
+}
+
 TEST(Earthquakes, AllFormatsHoldTheSameEvents) {
   const double seconds = 86400.0, day = 8779.0;  // 1994-01-14, days after 1970-01-01
   for (const std::string &content : {csv, scedc, zmap, quakeml}) {
@@ -123,33 +129,24 @@ TEST(Earthquakes, DatesAndTimes) {
 }
 
 TEST(Earthquakes, WhatCannotBeReadIsNamed) {
-  const struct {
-    std::string content, says;
-  } cases[] = {
-      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,6.7\nmonday,34,-118,2\n",
-       "file:3: time is 'monday', expected a date and time such as"},
-      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118\n",
-       "file:2: 3 fields, expected 4"},
-      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,north,-118,3\n",
-       "file:2: latitude is 'north', expected a number"},
-      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,94,-118,3\n",
-       "file:2: latitude is '94', expected a number"},
-      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,large\n",
-       "file:2: magnitude is 'large', expected a number"},
-      {"1994/01/17 12:30:55.39 eq l 6.7\n", "file:1: 5 fields, expected date, time, event type"},
-      {zmap + "-118 34 1994 13 1 2 5 0 0 0\n", "file:4: no event of ZMAP, expected longitude"},
-      {"<quakeml>\n<eventParameters>\n<event>\n</eventParameters></quakeml>\n", "expected QuakeML"},
-      {"<quakeml/>\n", "file: no element eventParameters, expected QuakeML"},
-      {"<quakeml><eventParameters>\n<event><origin/></event>\n</eventParameters></quakeml>\n",
-       "file:2: time is '', expected a date and time"}};
-  for (const auto &one : cases)
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says))
-        << message_of<FileError>([&] { read(one.content); });
-  EXPECT_TRUE(contains(message_of<FileError>([] {
-                         unit::TextBytes bytes("a,b\n1,2\n", "file");
-                         read_earthquakes(bytes, "csv", false);
-                       }),
-                       "file:1: column names without time, latitude, longitude and mag"));
+  refused("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,6.7\nmonday,34,-118,2\n",
+          "file:3: time is 'monday', expected a date and time such as");
+  refused("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118\n",
+          "file:2: 3 fields, expected 4");
+  refused("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,north,-118,3\n",
+          "file:2: latitude is 'north', expected a number");
+  refused("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,94,-118,3\n",
+          "file:2: latitude is '94', expected a number");
+  refused("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,large\n",
+          "file:2: magnitude is 'large', expected a number");
+  refused("1994/01/17 12:30:55.39 eq l 6.7\n", "file:1: 5 fields, expected date, time, event type");
+  refused(zmap + "-118 34 1994 13 1 2 5 0 0 0\n", "file:4: no event of ZMAP, expected longitude");
+  refused("<quakeml>\n<eventParameters>\n<event>\n</eventParameters></quakeml>\n",
+          "expected QuakeML");
+  refused("<quakeml/>\n", "file: no element eventParameters, expected QuakeML");
+  refused("<quakeml><eventParameters>\n<event><origin/></event>\n</eventParameters></quakeml>\n",
+          "file:2: time is '', expected a date and time");
+  refused("a,b\n1,2\n", "file:1: column names without time, latitude, longitude and mag", "csv");
   const EarthquakeList list = read(csv + "nonsense\nmore\n", true);
   EXPECT_EQ(list.events.size(), 3u);
   EXPECT_EQ(list.bad_lines, 2);
@@ -182,9 +179,9 @@ TEST(Earthquakes, OnlyWhatIsKnownToBeNoEarthquakeIsLeftOut) {
     EXPECT_EQ(list.others.count(no_earthquake), 1u) << no_earthquake;
   }
   const std::string most = file_of({"qb", "eq", "qb", "explosion"});
-  EXPECT_TRUE(contains(message_of<FileError>([&] { read(most); }),
-                       "file: 3 of 4 events are no earthquakes (1 of type 'explosion', 2 of type "
-                       "'qb'), expected less than half"));
+  refused(most,
+          "file: 3 of 4 events are no earthquakes (1 of type 'explosion', 2 of type 'qb'), "
+          "expected less than half");
   EXPECT_EQ(read(most, true).events.size(), 1u);
 }
 
@@ -232,13 +229,10 @@ TEST(Earthquakes, MissingValues) {
 TEST(Earthquakes, YearsOfTwoDigitsAreRefused) {
   for (const char *const year : {"83.45", "99.99", "0.01", "83", "-5", "12345"}) {
     const std::string file = std::string("-116.5 33.5 ") + year + " 6 15 2.1 5 0 0\n";
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(file); }),
-                         "file:1: no event of ZMAP, expected longitude, latitude, year (of four"))
-        << year;
+    refused(file, "file:1: no event of ZMAP, expected longitude, latitude, year (of four");
   }
-  EXPECT_TRUE(
-      contains(message_of<FileError>([] { read("year,month,day,lat,lon,mag\n83,6,15,1,1,4\n"); }),
-               "file:2: time is '83 6 15', expected a year from 100 to 9999 instead of 83"));
+  refused("year,month,day,lat,lon,mag\n83,6,15,1,1,4\n",
+          "file:2: time is '83 6 15', expected a year from 100 to 9999 instead of 83");
 }
 
 /// Times of the events in lines of these columns, in seconds after 2022-10-13T00:00.
@@ -307,9 +301,7 @@ TEST(Earthquakes, NoPartOfATimeIsDroppedInSilence) {
       {"date,time", "221013,06:29", "a date with a year of four digits"},
       {"date,time", "13/10/22,06:29", "a year of four digits"}};
   for (const auto &one : cases)
-    EXPECT_TRUE(contains(message_of<FileError>([&] { seconds_of(one.columns, one.line + "\n"); }),
-                         one.says))
-        << message_of<FileError>([&] { seconds_of(one.columns, one.line + "\n"); });
+    expect_error<FileError>([&] { seconds_of(one.columns, one.line + "\n"); }, one.says);
 }
 
 // What a text by itself leaves open follows from all of its column.
@@ -327,14 +319,13 @@ TEST(Earthquakes, TheWholeFileSaysWhatTextsMean) {
   EXPECT_EQ(seconds_of("date", "10/11/2022\n10/13/2022\n"), (std::vector<double>{-2 * day, 0}));
   EXPECT_EQ(seconds_of("mm/dd/yyyy", "10/11/2022\n"), (std::vector<double>{-2 * day}));
   EXPECT_EQ(seconds_of("date", "11.11.2022\n").size(), 1u);
-  const auto refused = [](const std::string &columns, const std::string &lines, const char *says) {
-    EXPECT_TRUE(contains(message_of<FileError>([&] { seconds_of(columns, lines); }), says))
-        << lines;
+  const auto unclear = [](const std::string &columns, const std::string &lines, const char *says) {
+    expect_error<FileError>([&] { seconds_of(columns, lines); }, says);
   };
-  refused(time, "2022,10,13,0546\n2022,10,13,144600\n", "either hhmm or hhmmss in the whole file");
-  refused("date", "06/02/2023\n07/02/2023\n", "a day above 12 somewhere in the file");
-  refused("date", "02-13-2023\n13-02-2023\n", "the day first in some dates");
-  refused("dd/mm/yyyy", "02/13/2023\n", "the day first in some dates");
+  unclear(time, "2022,10,13,0546\n2022,10,13,144600\n", "either hhmm or hhmmss in the whole file");
+  unclear("date", "06/02/2023\n07/02/2023\n", "a day above 12 somewhere in the file");
+  unclear("date", "02-13-2023\n13-02-2023\n", "the day first in some dates");
+  unclear("dd/mm/yyyy", "02/13/2023\n", "the day first in some dates");
 }
 
 TEST(Earthquakes, LinesThatAreNoneOfAFormat) {
@@ -342,11 +333,7 @@ TEST(Earthquakes, LinesThatAreNoneOfAFormat) {
   EXPECT_EQ(detect_format("2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw\n"), "models");
   for (const char *line : {"2009/04/06 01:32:39.00 42.334 11.334 8.8 6.3 Mw 100 50\n",
                            "2009/04/06 01:32:39.00 ITALY 2.334 11.334 8.8 6.3 Mw 100 50\n"})
-    EXPECT_TRUE(contains(message_of<FileError>([&] {
-                           unit::TextBytes bytes(line, "file");
-                           read_earthquakes(bytes, "scedc", false);
-                         }),
-                         "file:1: "));
+    refused(line, "file:1: ", "scedc");
   // The same with its names.
   const EarthquakeList list = read(
       "Date       Time             Lat       Lon  Depth   Mag Magt\n"
@@ -371,9 +358,6 @@ TEST(Earthquakes, OddTables) {
     EXPECT_EQ(list.events[1].time, 18263.0) << text;
     EXPECT_EQ(list.events[1].magnitude, 4.0) << text;
   }
-  const auto refused = [](const std::string &text, const char *says) {
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(text); }), says)) << text;
-  };
   refused("time;latitude;longitude;mag\n2020-01-01;56,1;-4,2;1,2\n",
           "latitude is '56,1', expected a number with a decimal point");
   refused("time,latitude,longitude,place,rms,mag,id\n2020-01-01,1,2,A, B,0.5,4,9\n",
@@ -459,10 +443,6 @@ TEST(Earthquakes, ColumnsOfAgencies) {
 }
 
 TEST(Earthquakes, GeoJsonThatCannotBeRead) {
-  const auto refused = [](const std::string &text, const std::string &says) {
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(text); }), says))
-        << message_of<FileError>([&] { read(text); });
-  };
   const std::string good =
       "{\"properties\":{\"time\":0,\"mag\":null},\"geometry\":{\"coordinates\":[1,2,3]}}";
   EXPECT_EQ(read("{\"features\":[" + good + "]}").without_magnitude, 1);
@@ -531,8 +511,9 @@ TEST_F(EarthquakeInput, Selection) {
   options = {};
   options.paths = {file(csv)};
   options.from_time = 1984;
-  EXPECT_TRUE(contains(message_of<std::invalid_argument>([&] { load_catalogues(options); }),
-                       "all catalogues are of earthquakes, expected a date such as 1984-01-01"));
+  expect_error<std::invalid_argument>(
+      [&] { load_catalogues(options); },
+      "all catalogues are of earthquakes, expected a date such as 1984-01-01");
 }
 
 // Files that were joined by the shell, or whose downloads were in chunks.
@@ -557,23 +538,19 @@ TEST(Earthquakes, QuakemlOfSeveralDocuments) {
         6u)
         << gap;
   }
-  const struct {
-    std::string content, says;
-  } cases[] = {
-      {quakeml + "\n" + quakeml.substr(0, 900), "file:"},
-      {quakeml + "<html><body>Too many requests</body></html>", "file: no element eventParameters"},
-      {quakeml + "Error 413: too many events", "expected QuakeML"},
-      {"<quakeml><eventParameters><event></eventParameters></quakeml>", "file:1: mismatched tag"},
-      {quakeml.substr(0, 900), "expected QuakeML"},
-      {"<!-- nothing -->", "expected QuakeML"}};
-  for (const auto &one : cases)
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says));
+  refused(quakeml + "\n" + quakeml.substr(0, 900), "file:");
+  refused(quakeml + "<html><body>Too many requests</body></html>",
+          "file: no element eventParameters");
+  refused(quakeml + "Error 413: too many events", "expected QuakeML");
+  refused("<quakeml><eventParameters><event></eventParameters></quakeml>",
+          "file:1: mismatched tag");
+  refused(quakeml.substr(0, 900), "expected QuakeML");
+  refused("<!-- nothing -->", "expected QuakeML");
   const std::string wrong =
       quakeml +
       "\n<quakeml><eventParameters>\n<event><origin/></event></eventParameters></quakeml>";
   const auto lines = std::count(quakeml.begin(), quakeml.end(), '\n');
-  EXPECT_TRUE(contains(message_of<FileError>([&] { read(wrong); }),
-                       "file:" + std::to_string(lines + 3) + ": time is ''"));
+  refused(wrong, "file:" + std::to_string(lines + 3) + ": time is ''");
 }
 
 // What leaves an event out is asked before what it lacks.
@@ -636,22 +613,18 @@ TEST(Earthquakes, GeojsonThatIsNone) {
                 .events.size(),
             1u);
   const std::string deep(100000, '[');
-  const struct {
-    std::string content, says;
-  } cases[] = {
-      {head + "{\"x\":" + deep + std::string(100000, ']') + "}" + tail,
-       "file: JSON nested more than 100 levels deep"},
-      {head + "{\"mag\":5,\"place\":\"Izmir K\xf6rfezi\"}" + tail,
-       "file:3: text that is not UTF-8"},
-      {head + good, "the file is truncated"},
-      {head + "{\"mag\":1e400,\"time\":1}" + tail, "file:3: 1e400 is too large a number"},
-      {head + good + tail + head + good + tail, "file:4: text after the end of the collection"},
-      {head + "{\"mag\":[5],\"time\":1299822384120}" + tail,
-       "feature 1: magnitude is 'array', expected a number"},
-      {head + "{\"mag\":5,\"time\":1299822384.12}" + tail, "expected milliseconds since 1970"},
-      {head + "{\"mag\":5,\"time\":1299822384120000}" + tail, "expected milliseconds since 1970"}};
-  for (const auto &one : cases)
-    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says));
+  refused(head + "{\"x\":" + deep + std::string(100000, ']') + "}" + tail,
+          "file: JSON nested more than 100 levels deep");
+  refused(head + "{\"mag\":5,\"place\":\"Izmir K\xf6rfezi\"}" + tail,
+          "file:3: text that is not UTF-8");
+  refused(head + good, "the file is truncated");
+  refused(head + "{\"mag\":1e400,\"time\":1}" + tail, "file:3: 1e400 is too large a number");
+  refused(head + good + tail + head + good + tail, "file:4: text after the end of the collection");
+  refused(head + "{\"mag\":[5],\"time\":1299822384120}" + tail,
+          "feature 1: magnitude is 'array', expected a number");
+  refused(head + "{\"mag\":5,\"time\":1299822384.12}" + tail, "expected milliseconds since 1970");
+  refused(head + "{\"mag\":5,\"time\":1299822384120000}" + tail,
+          "expected milliseconds since 1970");
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ namespace {
 
 using namespace LSM;
 using namespace LSM::postproc;
-using unit::contains;
-using unit::message_of;
+using unit::expect_error;
 
 /// A sawtooth with drops of all sizes and ripples, followed by a long rest.
 std::vector<double> saw_tooth(std::size_t n) {
@@ -211,8 +210,8 @@ TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
   EXPECT_DOUBLE_EQ(joined.ends.back(), 200.0);
   EXPECT_NEAR(slip_of(joined)[0], 0.5 * (slip[0] + slip[1]), 0.03 * slip[0]);
   EXPECT_NEAR(slip_of(joined)[3], slip[6], 0.03 * slip[6]);
-  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { image_of(path("run.slip.bin"), 1e6); }),
-                       "nothing in the window of time"));
+  expect_error<std::runtime_error>([&] { image_of(path("run.slip.bin"), 1e6); },
+                                   "nothing in the window of time");
 }
 
 ExploreRun run_of(const std::string &note) {

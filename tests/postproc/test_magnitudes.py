@@ -89,17 +89,6 @@ def b_values(postproc, *words):
 # ---------------------------------------------------------------- bins and limits
 
 
-def test_halves_go_up(postproc, work):
-    halves = [f"{m / 100:.2f}" for m in (-15, -5, 5, 15, 25, 35, *range(105, 150, 10), *range(205, 300, 10))]
-    quakes("halves.csv", halves)
-    run(postproc, "magnitudes halves.csv --magnitude-bin 0.1 --complete-from -1 --no-picture -o out")
-    bins = {float(row["magnitude"]): int(row["count"]) for row in table("out.csv") if int(row["count"])}
-    assert bins == {k / 10: 1 for k in (-1, 0, 1, 2, 3, 4, *range(11, 16), *range(21, 31))}
-    run(postproc, "export halves.csv --magnitude-bin 0.1 -o e.csv")
-    assert [row["magnitude"].replace("-0", "0", 1) if row["magnitude"] == "-0" else row["magnitude"]
-            for row in table("e.csv")] == [f"{k / 10:g}" for k in (-1, 0, 1, 2, 3, 4, *range(11, 16), *range(21, 31))]
-
-
 @pytest.mark.parametrize("width", ["0", "0.01", "0.1", "0.2"])
 def test_southern_california_is_exact(postproc, work, california, width):
     exact = Exact(california, width)
@@ -112,17 +101,6 @@ def test_southern_california_is_exact(postproc, work, california, width):
     }
     page = (SOURCE / "postproc/statistics.md").read_text()
     assert f"| {width} | {float(least):g} | {n} | {b:.6f} | {n_positive} | {positive:.6f} |" in page
-
-
-def test_magnitudes_at_the_limit_count(postproc, work, california):
-    quakes("t24.csv", ["2.4"] * 10 + ["2.7"] * 10)
-    found = b_values(postproc, "t24.csv --complete-from 2.4 --magnitude-bin 0")
-    assert found["n"] == 20 and found["b"] == pytest.approx(1 / (0.15 * math.log(10)), rel=1e-12)
-    assert b_values(postproc, "t24.csv --threshold M2.4 --magnitude-bin 0") == found
-    found = b_values(postproc, CALIFORNIA, "--complete-from 2.4 --magnitude-bin 0")
-    (b, n), _, _ = Exact(california, "0").b("2.4")
-    assert (found["n"], n) == (50301, 50301) and found["b"] == pytest.approx(b, rel=1e-12)
-    assert found["b"] == pytest.approx(1.0669, abs=5e-5)
 
 
 def test_what_is_complete_depends_on_the_events_in_the_window_only(postproc, work):
@@ -223,22 +201,6 @@ def test_bins_of_any_step_and_offset(postproc, work, width, offset):
     assert sorted(float(row["magnitude"]) for row in table("e.csv")) == sorted(map(float, magnitudes))
 
 
-def test_single_precision_loses_no_events(postproc, work):
-    magnitudes = gutenberg_richter(3000, 0.1, least=2.3)
-    quakes("typed.csv", magnitudes)
-    quakes("single.csv", [repr(float(np.float32(m))) for m in magnitudes])
-    assert "2.299999952316284" in Path("single.csv").read_text()
-    for limit in ("2.3", "2.4", "2.6", "3.1"):
-        for command in f"count {{}} --size M{limit} --overwrite --json o.json", f"magnitudes {{}} --min-magnitude {limit} --no-picture -o o --overwrite --json o.json":
-            found = []
-            for name in "typed.csv", "single.csv":
-                run(postproc, command.format(name))
-                found.append(Path("o.json").read_text().replace("single", "typed"))
-            assert found[0] == found[1]
-        kept = [m for m in magnitudes if Decimal(m) >= Decimal(limit)]
-        assert json.loads(found[1])["b_values"][0]["n"] == len(kept)
-
-
 @pytest.mark.parametrize("given", ["0:0.05", "0.1:", "0.1:x", ":0.1", "nan", "inf", "0.1:0.05:1", "-0.1:0"])
 def test_bins_that_are_none(postproc, work, given):
     quakes("q.csv", ["2.0", "2.1"] * 20)
@@ -275,21 +237,6 @@ def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     data = json.loads(re.search(r'id="data">(.*?)</script>', Path("explore.html").read_text(), re.S).group(1))
     laws = [one["law"] for one in data["runs"][0]["kinds"][0]["thresholds"] if one["law"]["n"] > 5000]
     assert laws and all(abs(law["value"] - exponent) < 4 * law["error"] for law in laws)
-
-
-def test_histogram_has_whole_bins_of_magnitudes(postproc, work):
-    magnitudes = gutenberg_richter(5000, 0.1)
-    quakes("q.csv", magnitudes)
-    run(postproc, "histograms q.csv --threshold M2 --no-picture -o h")
-    found = [(float(row["bin_lo"]), float(row["bin_hi"]), int(row["count"])) for row in table("h.csv")]
-    k = [round(10 * float(m)) for m in magnitudes]
-    assert [count for _, _, count in found] == [k.count(bin) for bin in range(20, max(k) + 1)]
-    assert all(hi / lo == pytest.approx(10**0.15) for lo, hi, _ in found)
-    assert found[0][0] == pytest.approx(10**(1.5 * 1.95))
-    # A threshold may be below the paper's threshold of 1e-4.
-    quakes("small.csv", gutenberg_richter(500, 0.1, least=-4))
-    run(postproc, "histograms small.csv --threshold M-4 --no-picture -o h --overwrite")
-    assert float(table("h.csv")[0]["bin_lo"]) == pytest.approx(10**(1.5 * -4.05))
 
 
 # ---------------------------------------------------------------- export
@@ -380,8 +327,6 @@ def test_times_of_0_are_counted(postproc, work):
     run(postproc,
         "intervals q.csv -o o --no-picture --replicas 0 --shuffles 0").warned("^postproc: .*: 2 of 41 times are 0, left out of densities and fits$")
 
-
-# ---------------------------------------------------------------- what counts as the data's fault
 
 # ---------------------------------------------------------------- times that are computed and typed
 

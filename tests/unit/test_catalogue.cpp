@@ -26,6 +26,7 @@ using LSM::CatalogueWriter;
 using LSM::FileError;
 using LSM::Rupture;
 using unit::contains;
+using unit::expect_error;
 using unit::message_of;
 using unit::resume;
 using unit::slurp;
@@ -91,8 +92,7 @@ class CatalogueFile : public unit::Files {
   void not_resumed(const CatalogueInfo &info, std::int64_t events, const std::string &message) {
     const std::string before = slurp(file());
     CatalogueWriter writer;
-    EXPECT_TRUE(contains(message_of<FileError>([&] { resume(writer, file(), info, events); }),
-                         file() + message));
+    expect_error<FileError>([&] { resume(writer, file(), info, events); }, file() + message);
     EXPECT_FALSE(writer.is_open());
     EXPECT_EQ(slurp(file()), before);
   }
@@ -288,8 +288,8 @@ TEST_F(CatalogueWrite, FailedCreateKeepsTheOldFile) {
   const std::string before = slurp(file());
   std::filesystem::create_directory(file() + ".new");  // where the temporary file would be
   CatalogueWriter writer;
-  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.create(file(), some_info()); }),
-                       file() + ": cannot open for writing: "));
+  expect_error<FileError>([&] { writer.create(file(), some_info()); },
+                          file() + ": cannot open for writing: ");
   EXPECT_EQ(slurp(file()), before);
   EXPECT_FALSE(writer.is_open());
   EXPECT_THROW(writer.write(some_event(1)), FileError);
@@ -301,8 +301,8 @@ TEST_F(CatalogueWrite, RefusesEventsNoReaderWouldTake) {
   writer.write(some_event(2));
   Rupture event = some_event(3);
   event.size = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.write(event); }),
-                       "cannot write event 3: column 'size' is not finite"));
+  expect_error<FileError>([&] { writer.write(event); },
+                          "cannot write event 3: column 'size' is not finite");
   EXPECT_THROW(writer.write(some_event(1)), FileError);
   EXPECT_THROW(writer.write(some_event(2)), FileError);
   writer.write(some_event(3));

@@ -25,6 +25,7 @@ using LSM::FileError;
 using LSM::FileLock;
 using LSM::OutputClaim;
 using unit::contains;
+using unit::expect_error;
 using unit::message_of;
 using unit::slurp;
 using unit::spill;
@@ -180,8 +181,8 @@ TEST_F(OutputClaims, FilesThatAreReplacedStayLocked) {
 TEST_F(OutputClaims, FileSystemsWithoutLocksAreRefused) {
   for (const char *content : {"", "x"}) {
     if (content[0]) spill(path("a.csv"), content);
-    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
-                         path("a.csv") + ": its file system has no locks (flock)"));
+    expect_error<FileError>([&] { FileLock(path("a.csv"), no_flock); },
+                            path("a.csv") + ": its file system has no locks (flock)");
     EXPECT_FALSE(fs::exists(path("a.csv.new")));
   }
 }
@@ -189,8 +190,8 @@ TEST_F(OutputClaims, FileSystemsWithoutLocksAreRefused) {
 TEST_F(OutputClaims, ATemporaryFileThatIsALinkStays) {
   spill(path("victim"), "");
   fs::create_symlink("victim", path("a.csv.new"));
-  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
-                       "its temporary file " + path("a.csv.new") + " is a symbolic link"));
+  expect_error<FileError>([&] { const FileLock lock(path("a.csv")); },
+                          "its temporary file " + path("a.csv.new") + " is a symbolic link");
   EXPECT_TRUE(fs::exists(path("victim")));
 }
 
@@ -198,10 +199,11 @@ TEST_F(OutputClaims, FilesThatAreOpenAlready) {
   std::ofstream log(path("log"));
   fs::create_hard_link(path("log"), path("a.csv"));
   OutputClaim claim;
-  EXPECT_TRUE(contains(message_of<FileError>([&] {
-                         claim = claim_outputs({{"catalogue", path("a.csv")}});
-                       }),
-                       "catalogue " + path("a.csv") + ": this run writes that file already"));
+  expect_error<FileError>(
+      [&] {
+        claim = claim_outputs({{"catalogue", path("a.csv")}});
+      },
+      "catalogue " + path("a.csv") + ": this run writes that file already");
   log.close();
   const std::ifstream reader(path("log"));
   claim = claim_outputs({{"catalogue", path("a.csv")}});
@@ -219,8 +221,8 @@ TEST_F(OutputClaims, FilesOfOthersAreComparedAndNotLocked) {
 }
 
 TEST_F(OutputClaims, FoldersThatCannotBeWritten) {
-  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("none/a.csv")); }),
-                       path("none/a.csv") + ": cannot open for writing: No such file"));
+  expect_error<FileError>([&] { FileLock(path("none/a.csv")); },
+                          path("none/a.csv") + ": cannot open for writing: No such file");
 }
 
 }  // namespace

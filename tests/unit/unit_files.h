@@ -73,6 +73,12 @@ inline ::testing::AssertionResult contains(const std::string &text, const std::s
   return ::testing::AssertionFailure() << "'" << part << "' is not in: " << text;
 }
 
+/// Expects that the call throws an Error with this part in its message.
+template <class Error, class Call>
+void expect_error(Call &&call, const std::string &part) {
+  EXPECT_TRUE(contains(message_of<Error>(call), part));
+}
+
 /// A locale with decimal comma and digit grouping, as in many languages.
 class CommaFacet : public std::numpunct<char> {
  protected:
