@@ -134,7 +134,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (screened) check_special();
   near.update(*list, contact_radii(), fix_history);
-  if (by_particle) own.follow(near, k, delay);
+  if (by_particle) own.follow(near, on, k, delay);
   constexpr int groups = 8 * sizeof(int);
   if (std::count(group->dynamic, group->dynamic + groups, 1)) near.find_sides();
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();

@@ -109,12 +109,16 @@ std::vector<double> LSMContactCoefficients::values(int i, int j) const
   return all;
 }
 
-void LSMContactCoefficients::follow(const LSMContacts &contacts,
+void LSMContactCoefficients::follow(const LSMContacts &contacts, const LSMTypePairs<int> &on,
                                     const LSMTypePairs<double> &stiffness,
                                     const LSMTypePairs<double> &retardation)
 {
-  if (update->setupflag || build != neighbor->ncalls) read();
-  if (begun != contacts.begun() || known == 0) {
+  const bool again = update->setupflag || build != neighbor->ncalls;
+  if (again) {
+    read();
+    check_particles(on);
+  }
+  if (again || begun != contacts.begun() || known == 0) {
     begun = contacts.begun();
     known = 0;
     k.clear();
@@ -124,11 +128,6 @@ void LSMContactCoefficients::follow(const LSMContacts &contacts,
   for (; known < contacts.count(); known++) {
     const LSMContacts::Pair &pair = contacts.pair(known);
     const int itype = atom->type[pair.i], jtype = atom->type[pair.j];
-    const bool own = table.has_property(itype, jtype);
-    for (int i : {pair.i, pair.j}) {
-      const std::string wrong = own ? complaint(i, itype, jtype) : "";
-      if (!wrong.empty()) error->one(FLERR, Error::NOLASTLINE, wrong);
-    }
     const std::vector<double> all = values(pair.i, pair.j);
     k.add(stiffness[itype][jtype]);
     delay.add(retardation[itype][jtype]);

@@ -27,10 +27,11 @@ class LSMContactCoefficients : protected Pointers {
   bool init(const LSMTypePairs<int> &on);
   /// Notes the numbers of all particles.
   void read();
-  /// Brings the coefficients of all pairs up to date.
+  /// Brings the coefficients of all pairs up to date; checks numbers as init() does when they are
+  /// read again.
   /// \param stiffness, retardation  of types
-  void follow(const LSMContacts &, const LSMTypePairs<double> &stiffness,
-              const LSMTypePairs<double> &retardation);
+  void follow(const LSMContacts &, const LSMTypePairs<int> &on,
+              const LSMTypePairs<double> &stiffness, const LSMTypePairs<double> &retardation);
   /// The coefficients of types have changed.
   void outdate() { known = 0; }
   /// The coefficients of a contact of two particles.
