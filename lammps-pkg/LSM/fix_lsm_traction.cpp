@@ -36,16 +36,19 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
   if (narg < 7)
     error->all(FLERR,
                "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
-               "NORMAL SHEAR [share diameter|spacing] [per/mass A] [dip SHEAR]', tractions "
-               "as numbers or variables v_name");
+               "NORMAL SHEAR [share diameter|spacing] [per/mass A] [dip SHEAR] [added SHEAR]', "
+               "tractions as numbers or variables v_name");
   LSMKeywordReader in(lmp, "Fix lsm/traction", 7, narg, arg);
   in.read_all({{"share", LSM::Words{&spaced, {"diameter", "spacing"}}},
                {"per/mass", &per_mass, LSM::Must::positive},
-               {"dip", &traction[DIP]}});
+               {"dip", &traction[DIP]},
+               {"added", &traction[ADDED]}});
   for (const char *word : {"share", "dip"})
     if (in.has(word) && (domain->dimension == 3) != (word[0] == 'd'))
       error->all(FLERR, "Fix lsm/traction {} needs dimension {}, found dimension {}", word,
                  word[0] == 'd' ? 3 : 2, domain->dimension);
+  if (spaced && in.has("added"))
+    error->all(FLERR, "Fix lsm/traction added needs share diameter, or per/mass");
   if (modify->get_fix_by_style("^lsm/traction").size() > 0)
     error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
   for (int s : {BELOW, ABOVE}) {
@@ -160,19 +163,26 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   return found;
 }
 
-// Length of the fault, in three dimensions its area, that each particle of this rank on one side
-// represents: given for its mass, its diameter or the square of it, or in two dimensions half
-// the distance to the next particles of that side on the left and on the right. At the ends of a
-// fault that is not periodic, its radius replaces the missing half.
+// Length of the fault, in three dimensions its area, that a particle represents: given for its mass,
+// its diameter or the square of it.
+double FixLSMTraction::share_of(int i) const
+{
+  const double diameter = 2.0 * atom->radius[i];
+  return per_mass > 0.0        ? per_mass * atom->rmass[i]
+      : domain->dimension == 3 ? diameter * diameter
+                               : diameter;
+}
+
+// That of each particle of this rank on one side, which in two dimensions may be half the distance
+// to the next particles of that side on the left and on the right. At the ends of a fault that is
+// not periodic, its radius replaces the missing half.
 std::vector<double> FixLSMTraction::shares(int s) const
 {
   const double *const radius = atom->radius;
   std::vector<double> share(atom->nlocal, 0.0), mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
-    share[i] = per_mass > 0.0    ? per_mass * atom->rmass[i]
-        : domain->dimension == 3 ? 4.0 * radius[i] * radius[i]
-                                 : 2.0 * radius[i];
+    share[i] = share_of(i);
     mine.push_back(atom->x[i][0]);
   }
   if (!spaced) return share;
@@ -289,19 +299,26 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
 }
 
 // The forces that balance the tractions: the upper face is pulled along x and z, and each is
-// pressed on the other. Within a run velocities are those of the middle of the step; times the time
-// step they give the displacement.
+// pressed on the other; what is added along x acts besides. Within a run velocities are those of
+// the middle of the step; times the time step they give the displacement.
 void FixLSMTraction::post_force(int /*vflag*/)
 {
   find_store();
   double **v = atom->v;
   double **f = atom->f;
   double work = 0.0;
+  std::vector<double> added;
+  if (traction[ADDED] != "0") added = evaluate(traction[ADDED]);
   for (int i = 0; i < atom->nlocal; i++)
     for (int s : {BELOW, ABOVE}) {
       if (!(atom->mask[i] & side[s])) continue;
       const double up = s == ABOVE ? 1.0 : -1.0;
-      const double fx = up * load[SHEAR][i], fy = -up * load[NORMAL][i];
+      const double more = added.empty() ? 0.0 : added[i] * share_of(i);
+      if (!std::isfinite(more))
+        error->one(FLERR, Error::NOLASTLINE,
+                   "Fix lsm/traction: added traction of particle {} is {}, but must be finite",
+                   atom->tag[i], added[i]);
+      const double fx = up * (load[SHEAR][i] + more), fy = -up * load[NORMAL][i];
       f[i][0] += fx;
       f[i][1] += fy;
       work += fx * v[i][0] + fy * v[i][1];

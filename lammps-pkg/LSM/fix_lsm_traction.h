@@ -41,9 +41,10 @@ class FixLSMTraction :
   }
 
  private:
-  enum { NORMAL, SHEAR, DIP };
-  int side[2];                                // group bits of the lower and the upper face
-  std::string traction[3] = {"", "", "0"};    // normal, shear, shear along z: number or v_name
+  enum { NORMAL, SHEAR, DIP, ADDED };
+  int side[2];    // group bits of the lower and the upper face
+  // normal, shear, shear along z, shear added in each step: number or v_name
+  std::string traction[4] = {"", "", "0", "0"};
   int spaced = 0;                      // 1: particles are loaded by their spacing, not diameter
   double per_mass = 0.0;               // length or area that they represent, over mass; 0: not so
   double widest_radius = 0.0;          // of the faces, while contacts are loaded
@@ -53,6 +54,7 @@ class FixLSMTraction :
   void find_store();
   std::vector<double> evaluate(const std::string &) const;
   int partner(int, const std::vector<int> &) const;
+  double share_of(int) const;
   std::vector<double> shares(int) const;
 };
 

@@ -102,6 +102,38 @@ static std::string lattice(const std::string &begin, const std::string &box = "f
 static const std::string created =
     "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
 
+// Rate-and-state friction between borders that strengthen, with a stress that still grows when the
+// restart file is written.
+TEST_F(Benchmark, RateAndStateRuptureGoesOnByteForByte) {
+  const auto script = [](const std::string &begin, const std::string &set) {
+    std::string all = lattice(begin);
+    const auto from = all.find("pair_style"), to = all.find("fix caps");
+    return all.replace(
+        from, to - from,
+        "fix own all property/atom d_a d_theta ghost yes\n" + set +
+            "pair_style lsm/friction rate-state-ageing mu 0.6 a d_a b 0.012 dc 1e-6 v0 1e-9 "
+            "theta d_theta\npair_coeff * * off\npair_coeff 3 4 1.0 10.0\n"
+            "variable more atom 2e-5*(abs(x)<5)*(time*(time<15)+15*(time>=15))\n"
+            "fix load all lsm/traction lower upper 1e-3 6e-4 added v_more\n");
+  };
+  const std::string set =
+      "variable a atom 0.008+0.008*(abs(x)>12)\nset group all d_a v_a\nset group all d_theta 1e3\n";
+  const std::string end =
+      "run 100\nwrite_dump all custom end.dump id vx vy x y modify sort id format float %.17g\n";
+  Result one;
+  for (const int ranks : {1, 2}) {
+    const Result whole =
+        ran(script(created, set) + "run 100\nwrite_restart half.restart\n" + end, {}, ranks);
+    const std::string expected = read_file(path("end.dump"));
+    EXPECT_GT(expected.size(), 10000u);
+    ran(script("read_restart half.restart", "") + end, {}, ranks);
+    EXPECT_EQ(read_file(path("end.dump")), expected) << ranks << " ranks";
+    if (ranks == 1) one = whole;
+    EXPECT_LT(thermo_difference(one, whole, {"KinEng", "c_events[11]", "c_events[15]"}), 1e-9);
+  }
+  EXPECT_GT(one.last("c_events[11]"), 1e-6);  // friction of the rupture
+}
+
 TEST_F(Benchmark, PeriodicLatticeSlidesAsAWhole) {
   // The stress exceeds the strength everywhere on the fault: it drops to the dynamic friction, and
   // nothing depends on x, not even across the border of the box.
@@ -240,6 +272,10 @@ TEST_F(Benchmark, WrongInputIsNamed) {
   refused({"'z'", "x or y"}, begin + "fix a caps lsm/absorb z 1.0 1.0 1.0\n");
   refused({"faces none"},
           begin + "unfix load\nfix load all lsm/traction lower caps 1e-3 0\nrun 0\n");
+  const std::string added = "unfix load\nfix load all lsm/traction lower upper 1e-3 0 added ";
+  refused({"added", "share diameter"}, begin + added + "1e-4 share spacing\n");
+  refused({"added traction of particle", "inf", "finite"},
+          begin + "variable more atom exp(1000+abs(x))\n" + added + "v_more\nrun 0\n");
   refused({"variable nothing does not exist"},
           begin + "unfix load\nfix load all lsm/traction lower upper 1e-3 v_nothing\nrun 0\n");
   refused({"would overlap"},
