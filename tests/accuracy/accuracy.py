@@ -260,8 +260,9 @@ def measure(mode, out, slider, friction, postproc, tests, lmp, inputs, mpiexec, 
         spacings = (200, 100, 50) if mode == "full" else (200,)
         said = done("ruptures of a flat fault", "bash", SCENES / "ruptures.sh", lmp, inputs, *spacings, cwd=work, env={"LSM_PYTHON": sys.executable})
         (out / "ruptures.txt").write_text(said.out)
-        for name in ("tpv205.png", "tpv205.svg", "tpv3.png", "tpv3.svg"):
-            shutil.copy(work / name, out)
+        for name in ("tpv205", "tpv3", "tpv101"):
+            for ending in ("png", "svg"):
+                shutil.copy(work / f"{name}.{ending}", out)
     if "extremes" in parts:
         env = {} if mode == "quick" else {"LSM_REST_STEPS": "100000000"}
         said = done("extreme cases", tests, "--gtest_filter=Extremes.*:Reproducible.*", env=env)

@@ -93,7 +93,8 @@ def test_tpv5_names_a_surface_that_there_is_not(lmp):
 
 
 @pytest.mark.parametrize("name, variable, value, said", [("tpv205", "patches", "maybe", "yes or no"), ("tpv205", "dx", 0, "a number above 0"),
-                                                         ("tpv3", "blocks", "grid", "lattice or packing"),
+                                                         ("tpv205", "barrier", 0.5, "a number of at least 1"),
+                                                         ("tpv101", "tend", 0, "a number above 0"), ("tpv3", "blocks", "grid", "lattice or packing"),
                                                          ("crack", "speed", 1.5, "a number of at least 0 and less than 1"),
                                                          ("tpv5", "pictures", 0.5, "a whole number of at least 0")])
 def test_variables_of_ruptures_are_checked(lmp, name, variable, value, said):

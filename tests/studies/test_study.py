@@ -449,7 +449,7 @@ def test_names_that_programs_do_not_have_are_refused(plan):
     ("run,steps\n", "my.csv:1: no column 'program', expected one"),
     (BLOCKS + "s,slider,100\n", "my.csv:2: 3 cells, expected 6 as in the first line"),
     (BLOCKS + "s,chain,100,1,1e5,\n",
-     "my.csv:2: program 'chain', expected fault, slider, esys, catalogue, rupture_tpv205, rupture_tpv3, rupture_tpv5 or fault_3d"),
+     "my.csv:2: program 'chain', expected fault, slider, esys, catalogue, rupture_tpv101, rupture_tpv205, rupture_tpv3, rupture_tpv5 or fault_3d"),
     (BLOCKS + "s,slider,100 200,1,1e5,\n", "my.csv:2: there is a run 's' already, expected another name"),
     (BLOCKS + "s_{size},slider,100,1,1e5,\n", "my.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
     (BLOCKS + "a/b,slider,100,1,1e5,\n", "my.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
