@@ -10,6 +10,8 @@ from values import Value
 
 FOLDER = Path(__file__).resolve().parent
 FLAT = {"TPV205": "rupture_benchmark-stations.csv", "TPV3": "rupture_tpv3-stations.csv"}
+STATIONS = FLAT | {"TPV101": "rupture_tpv101-stations.csv"}
+CONVERGENCE, BARRIER = "rupture_varied-convergence.csv", "rupture_varied-barrier.csv"
 
 
 def order_of(before, after, key):
@@ -26,7 +28,7 @@ def with_orders(runs, show):
 
 def stations_of(name, chosen):
     texts = ("run", "reference")
-    return [{key: value if key in texts else float(value) for key, value in row.items()} for row in read(FOLDER / FLAT[name]) if chosen(row)]
+    return [{key: value if key in texts else float(value) for key, value in row.items()} for row in read(FOLDER / STATIONS[name]) if chosen(row)]
 
 
 def flat_runs(name):
@@ -49,6 +51,42 @@ def rupture_flat_table():
     out = [[f"{name}: {text}", *with_orders(some, show)] for name, some in runs.items() for text, show in FLAT_ROWS.items()]
     out = [row + ["-"] * (len(spacings) + 1 - len(row)) for row in out]
     return ["difference until 6 s (order of convergence)", *spacings], out
+
+
+def tpv101_runs():
+    """Differences of TPV101-2D from the finest boundary integral: of coarser ones, and of the lattices."""
+    coarser = [{key: float(value) for key, value in row.items()} for row in read(FOLDER / CONVERGENCE)]
+    return {"boundary integral": coarser, "lattice": flat_runs("TPV101")}
+
+
+def rupture_state_table():
+    """TPV101-2D: until 7 s, differences from the finest boundary integral."""
+    runs = tpv101_runs()
+    heads = [f"{name} {run['spacing']:g} m" for name, some in runs.items() for run in some]
+    rows = {text: show for text, show in FLAT_ROWS.items() if show[0] in ("arrival", "slip", "peak")}
+    return ["difference until 7 s (order of convergence)", *heads], [
+        [text, *(cell for some in runs.values() for cell in with_orders(some, show))] for text, show in rows.items()
+    ]  # yapf: disable
+
+
+def barrier_runs():
+    """{(method, spacing): largest energy of a barrier that breaks, smallest of one that does not, energy release rate at a tip that is held}"""
+    groups = {}
+    for row in read(FOLDER / BARRIER):
+        groups.setdefault((row["method"], row["spacing"]), []).append(row)
+    out = {}
+    for name, some in groups.items():
+        free = [(float(row["energy"]), float(row["reach"]) > 9) for row in some if not row["held"]]
+        out[name] = max(energy for energy, broke in free if broke), min(energy for energy, broke in free
+                                                                        if not broke), next(float(row["held"]) for row in some if row["held"])
+    return out
+
+
+def rupture_barrier_table():
+    """TPV3-2D with a barrier, MJ/m^2."""
+    return ["MJ/m2", "largest energy that breaks", "smallest that stops the rupture", "energy release rate at a tip that is held"], [
+        [f"{method} {spacing} m", *(f"{value:.1f}" for value in values)] for (method, spacing), values in barrier_runs().items()
+    ]  # yapf: disable
 
 
 def plane_runs():
@@ -163,6 +201,18 @@ def rupture_values():
     yield Value("tpv5.rate_low_l2", plane["150 m"]["rate_low_l2"], source="rupture_3d-convergence.csv")
     yield Value("tpv5.mean.soft", plane["200 m kt 1.5"]["mean"], source="rupture_3d-convergence.csv")
     yield Value("tpv5.order.scatter", order_of(plane["200 m"], plane["150 m"], "scatter"), source="rupture_3d-convergence.csv")
+    runs = tpv101_runs()
+    for key in ("arrival", "slip", "peak"):
+        yield Value(f"tpv101.{key}", runs["lattice"][-1][key], source=STATIONS["TPV101"])
+        yield Value(f"tpv101.integral.{key}", runs["boundary integral"][-1][key], source=CONVERGENCE)
+    barriers = barrier_runs()
+    for method in ("boundary integral", "lattice"):
+        breaks, stops, held = next(value for (name, _), value in reversed(barriers.items()) if name == method)
+        name = "integral" if method != "lattice" else method
+        for key, value in (("breaks", breaks), ("stops", stops), ("held", held)):
+            yield Value(f"barrier.{name}.{key}", value, unit="MJ/m^2", source=BARRIER)
+    static = next(float(row["static"]) for row in read(FOLDER / BARRIER) if row["static"])
+    yield Value("barrier.static", static, unit="MJ/m^2", source=BARRIER)
     pylith = rupture_benchmark.summary(stations_of("TPV205", lambda row: row["reference"].startswith("PyLith") and row["spacing"] == "50"))
     for key in ("arrival", "slip"):
         yield Value(f"tpv205.pylith.{key}", pylith[key], source=FLAT["TPV205"])

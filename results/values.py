@@ -25,7 +25,7 @@ CHOSEN = {
     "sizes that are counted, and units of rates": "1e-4 0.001 0.002 0.003 1e-3 3e-3 0.01 0.1 1 100 1000",
     "times: loading, a P-wave through the blocks, memories and steps": "8000 15 0.3 4 0.03 0.12",
     "thresholds of ruptures, in velocities of the plates": "20 50",
-    "benchmarks: spacings, stations, times, frequency": "50 100 150 200 19 1",
+    "benchmarks: spacings, stations, times, frequency, thinning": "12.5 50 100 150 200 19 1 0.2",
     "our tolerances, and aims": "0.07 1.22 1.25 25 32",
     "rounds": "15",
     "a network": "2 10",
