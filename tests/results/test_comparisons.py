@@ -15,6 +15,7 @@ import match  # noqa: E402
 import nature  # noqa: E402
 import periods  # noqa: E402
 import rupture_benchmark as benchmark  # noqa: E402
+import rupture_varied  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 
 # ---- match.py
@@ -180,6 +181,19 @@ def test_summary_is_root_mean_square():
     assert (s["arrival"], s["arrival_max"]) == pytest.approx((math.sqrt((0.16 + 0.01) / 2), 0.4))
     assert (s["slip"], s["slip_max"], s["slip_l2"]) == pytest.approx((math.sqrt(0.02 / 5), 0.1, 0.1))
     assert (s["rate_l2"], s["peak"]) == pytest.approx((math.sqrt(0.125), math.sqrt(0.04 / 2)))
+
+
+def test_energy_release_rate_of_a_static_crack(monkeypatch):
+    """From the slip of a crack under uniform stress, 2 (1 - nu) / mu times the stress times sqrt(a^2 - x^2)."""
+    monkeypatch.setattr(rupture_varied, "NUCLEUS", 0.0)
+    a, t = rupture_varied.EDGE - 50, np.array([0.0, 1.0])
+    factor = 2 * (1 - rupture_varied.POISSON) / rupture_varied.MODULUS * rupture_varied.DROP
+    curves = {x: np.array([t, t * factor * math.sqrt(a * a - x * x), 0 * t]) for x in np.arange(0, a, 100)}
+    rate = rupture_varied.held_rate(curves, 100.0)[1]
+    assert rate[0] == 0 and rate[1] == pytest.approx(rupture_varied.static_rate() * a / rupture_varied.EDGE, rel=2e-3)
+    # Fast enough to have arrived up to 4 km
+    moving = {x: np.array([t, t, t * (2 if abs(x) <= 4000 else 0)]) for x in np.arange(-6000, 6001, 500)}
+    assert rupture_varied.reach(moving) == 4000
 
 
 def test_references_that_are_none_are_refused(work):
