@@ -3,43 +3,13 @@
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_multifit_nlinear.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gsl_owners.h"
 
 namespace LSM::postproc {
-
-namespace {
-
-Numbers numbers_of(const gsl_vector *x) { return {x->data, x->data + x->size}; }
-
-int residuals(const gsl_vector *x, void *residual, gsl_vector *f) {
-  const Numbers p = numbers_of(x);
-  Numbers slope(p.size());
-  for (std::size_t i = 0; i < f->size; ++i) {
-    const double value = (*static_cast<const Residual *>(residual))(i, p, slope);
-    if (!std::isfinite(value)) return GSL_EDOM;
-    gsl_vector_set(f, i, value);
-  }
-  return GSL_SUCCESS;
-}
-
-int jacobian(const gsl_vector *x, void *residual, gsl_matrix *j) {
-  const Numbers p = numbers_of(x);
-  Numbers slope(p.size());
-  for (std::size_t i = 0; i < j->size1; ++i) {
-    (*static_cast<const Residual *>(residual))(i, p, slope);
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      if (!std::isfinite(slope[k])) return GSL_EDOM;
-      gsl_matrix_set(j, i, k, slope[k]);
-    }
-  }
-  return GSL_SUCCESS;
-}
-
-}  // namespace
 
 double Covariance::error(const Numbers &gradient) const {
   double variance = 0.0;
@@ -64,41 +34,31 @@ Covariance covariance_of(const SymmetricMatrix &information) {
   return inverse;
 }
 
-LeastSquares least_squares(const Numbers &weights, const std::vector<Numbers> &starts,
-                           const Residual &residual) {
-  const std::size_t n = weights.size(), count = starts.front().size();
-  gsl_multifit_nlinear_fdf functions{};
-  functions.f = residuals;
-  functions.df = jacobian;
-  functions.n = n;
-  functions.p = count;
-  functions.params = const_cast<Residual *>(&residual);
-  const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  const Gsl<gsl_multifit_nlinear_workspace> work(
-      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, count),
-      gsl_multifit_nlinear_free);
-  const gsl_vector_const_view w = gsl_vector_const_view_array(weights.data(), n);
-  LeastSquares best;
-  for (const Numbers &start : starts) {
-    const gsl_vector_const_view first = gsl_vector_const_view_array(start.data(), count);
-    if (gsl_multifit_nlinear_winit(&first.vector, &w.vector, &functions, work.get()) != GSL_SUCCESS)
-      continue;
-    int info = 0;
-    const int status =
-        gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0.0, nullptr, nullptr, &info, work.get());
-    const gsl_vector *const f = gsl_multifit_nlinear_residual(work.get());
-    double chi2 = HUGE_VAL;
-    gsl_blas_ddot(f, f, &chi2);
-    if (!(chi2 < best.chi2)) continue;
-    best.chi2 = chi2;
-    best.p = numbers_of(gsl_multifit_nlinear_position(work.get()));
-    // GSL_ENOPROG: rounding prevents a further decrease, so this is the minimum.
-    best.converged = status == GSL_SUCCESS || status == GSL_ENOPROG;
-    const gsl_matrix *const j = gsl_multifit_nlinear_jac(work.get());
-    SymmetricMatrix information(count);
-    gsl_matrix_view square = gsl_matrix_view_array(information.entries.data(), count, count);
-    gsl_blas_dgemm(CblasTrans, CblasNoTrans, 1.0, j, j, 0.0, &square.matrix);
-    best.covariance = covariance_of(information);
+Maximum maximise(const LikelihoodAt &likelihood, const Numbers &start) {
+  constexpr double enough = 1e-20;
+  Maximum best{start, likelihood(start)};
+  double damping = 0.0;
+  for (int i = 0; i < 500 && damping < 1e12 && std::isfinite(best.at.value); ++i) {
+    SymmetricMatrix damped = best.at.information;
+    for (std::size_t k = 0; k < damped.n; ++k) damped(k, k) += damping * std::fabs(damped(k, k));
+    const Covariance inverse = covariance_of(damped);
+    Numbers next = best.p;
+    double gain = 0.0;
+    for (std::size_t k = 0; k < inverse.n; ++k)
+      for (std::size_t l = 0; l < inverse.n; ++l) {
+        const double step = inverse(k, l) * best.at.score[l];
+        next[k] += step;
+        gain += best.at.score[k] * step;
+      }
+    Likelihood there = inverse.n > 0 ? likelihood(next) : Likelihood();
+    // Near the maximum the gain is lost in rounding.
+    if (there.value >= best.at.value - 1e-14 * (1.0 + std::fabs(best.at.value))) {
+      best = {std::move(next), std::move(there), gain <= 1e-8};
+      if (gain <= enough) break;
+      damping = damping > 1e-3 ? 0.1 * damping : 0.0;
+    } else {
+      damping = std::max(1e-3, 10.0 * damping);
+    }
   }
   return best;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file estimation.h
-/// Common parts of fits with several parameters: standard errors from the information matrix, and
-/// least squares.
+/// Maximum likelihood: what all fits with several parameters share.
 #ifndef LSM_POSTPROC_ESTIMATION_H
 #define LSM_POSTPROC_ESTIMATION_H
 
@@ -19,6 +18,8 @@ struct SymmetricMatrix {
   explicit SymmetricMatrix(std::size_t count = 0) : n(count), entries(count * count) {}
   double &operator()(std::size_t i, std::size_t j) { return entries[i * n + j]; }
   double operator()(std::size_t i, std::size_t j) const { return entries[i * n + j]; }
+  /// Sets two entries that are equal.
+  void set(std::size_t i, std::size_t j, double value) { (*this)(i, j) = (*this)(j, i) = value; }
 
   std::size_t n;
   Numbers entries;
@@ -38,23 +39,25 @@ struct Covariance : SymmetricMatrix {
 /// number of at most 1e-10 after scaling)
 Covariance covariance_of(const SymmetricMatrix &information);
 
-/// Residual of datum i at the parameters p; its derivatives are written to slope.
-using Residual = std::function<double(std::size_t i, const Numbers &p, Numbers &slope)>;
+/// Logarithm of a likelihood at some parameters, its gradient, and minus its second derivatives (or
+/// their mean). Without a finite value the others may be left out.
+struct Likelihood {
+  double value = -HUGE_VAL;
+  Numbers score = {};
+  SymmetricMatrix information = SymmetricMatrix();
+};
+using LikelihoodAt = std::function<Likelihood(const Numbers &p)>;
 
-/// Result of least_squares(); p is empty if no start led to finite residuals.
-struct LeastSquares {
+/// Result of maximise().
+struct Maximum {
   Numbers p;
-  Covariance covariance;  ///< from the curvature of chi square at p
-  double chi2 = HUGE_VAL;
-  bool converged = false;
+  Likelihood at;
+  bool converged = false;  ///< whether the last step gained at most 1e-8
 };
 
-/// Minimises the weighted sum of squared residuals by the Levenberg-Marquardt method.
-/// \param weights one for each datum
-/// \param starts initial parameters to try, at least one
-/// \return the best minimum that was reached from any start
-LeastSquares least_squares(const Numbers &weights, const std::vector<Numbers> &starts,
-                           const Residual &residual);
+/// Newton's method (with the mean information: Fisher's method of scoring), damped as by Levenberg
+/// and Marquardt wherever the likelihood would not increase.
+Maximum maximise(const LikelihoodAt &likelihood, const Numbers &start);
 
 }  // namespace LSM::postproc
 

@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
-#include <gsl/gsl_min.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf.h>
@@ -39,7 +38,6 @@ using text::number;
 // last: ln delta, or the scale and ln delta.
 enum Parameter { log_c, shape, scale, log_delta, parameters };
 using Vector = std::array<double, parameters>;
-using Matrix = std::array<Vector, parameters>;
 
 constexpr double delta_min = 0.1, delta_max = 10.0;
 
@@ -148,9 +146,17 @@ struct GammaLaw {
   }
 };
 
-// Likelihood of a sample of logarithms from `lower` on, maximised over gamma and the scale for each
-// delta.
-struct ProfileLikelihood {
+// The derivatives of ln f but for ln C with respect to gamma, the scale and ln delta, with w =
+// delta (v - v0) and s = exp(w); and s w^2. Those of second order are combinations of these.
+auto slopes_of(const GammaLaw &law) {
+  return [delta = law.delta, v0 = law.v0](double v) -> Vector {
+    const double w = delta * (v - v0), s = std::exp(w);
+    return {v, delta * s, -s * w, s * w * w};
+  };
+}
+
+// Likelihood of a sample of logarithms from `lower` on.
+struct GammaLikelihood {
   const Sample &sample;
   double lower;
   double mean_v = sample.mean([](double v) { return v; });
@@ -158,10 +164,12 @@ struct ProfileLikelihood {
   // Log-likelihood per value of the power law without a fall-off; only for a truncated sample.
   double power_law() const { return -std::log(mean_v - lower) - 1.0; }
 
+  // The best law for a given delta.
   GammaLaw at(double delta) const {
     GammaLaw law{lower, delta};
+    const double origin = law.truncated() ? lower : 0.0;
+    const double mean_t = sample.mean([&](double v) { return std::exp(delta * (v - origin)); });
     if (law.truncated()) {
-      const double mean_t = sample.mean([&](double v) { return std::exp(delta * (v - lower)); });
       const TiltedFit fit = fit_tilted({delta}, mean_v - lower, mean_t, HUGE_VAL);
       if (!fit.converged) return law;
       law.gamma = fit.b;
@@ -169,10 +177,9 @@ struct ProfileLikelihood {
       law.log_likelihood = fit.log_likelihood;
       return law;
     }
-    // w = theta^delta has a gamma distribution of shape k = gamma / delta. As ln k - psi(k) falls
-    // from infinity to 0, there is exactly one solution, which is found by Newton's method in ln k.
-    const double mean_w = sample.mean([&](double v) { return std::exp(delta * v); });
-    const double target = std::log(mean_w) - delta * mean_v;
+    // theta^delta has a gamma distribution of shape k = gamma / delta. As ln k - psi(k) falls from
+    // infinity to 0, there is exactly one solution, which is found by Newton's method in ln k.
+    const double target = std::log(mean_t) - delta * mean_v;
     if (!(target > 1e-12)) return law;
     double k = 0.5 / target + 0.2;
     for (int i = 0; i < 100; ++i) {
@@ -181,80 +188,66 @@ struct ProfileLikelihood {
       k *= std::exp(std::clamp(-step, -2.0, 2.0));
       if (std::fabs(step) < 1e-14) break;
     }
-    const double log_b = std::log(mean_w / k);
+    const double log_b = std::log(mean_t / k);
     law.gamma = k * delta;
     law.v0 = log_b / delta;
     law.log_likelihood = std::log(delta) - k * log_b - gsl_sf_lngamma(k) + law.gamma * mean_v - k;
     return law;
   }
 
-  // Best delta in (delta_min, delta_max): a coarse scan, since there may be several maxima, then
-  // Brent's method around the best one.
+  // As a function of gamma, the scale and, if it is free, ln delta.
+  Likelihood operator()(const GammaLaw &law, std::size_t free) const {
+    const auto &[from, delta, gamma, v0, ignored] = law;
+    if (!(delta >= delta_min && delta <= delta_max && (gamma > 0.0 || law.truncated()))) return {};
+    const auto slopes = slopes_of(law);
+    const double mode = gamma > 0.0 ? v0 + std::log(gamma / delta) / delta : lower;
+    const TabulatedDensity table =
+        tabulate([&law](double v) { return law.gamma * v - std::exp(law.delta * (v - law.v0)); },
+                 std::max(mode, lower), lower, HUGE_VAL, 1.0 / delta);
+    const Vector of_data = sample.mean_of(slopes);
+    const auto of_law = table.mean_of([&](double v) -> std::array<double, 10> {
+      const auto [x, y, z, more] = slopes(v);
+      return {x, y, z, more, x * x, x * y, y * y, x * z, y * z, z * z};
+    });
+    Likelihood out{sample.n() * (gamma * mean_v - of_data[1] / delta - table.log_z), Numbers(free),
+                   SymmetricMatrix(free)};
+    Vector change;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = of_law[i] - of_data[i];
+    const double scale_delta = change[1] - delta * change[2], delta_delta = change[2] - change[3];
+    const double second[] = {0.0, 0.0, -delta * change[1], 0.0, scale_delta, delta_delta};
+    for (std::size_t i = 0, k = 0; i < free; ++i) {
+      out.score[i] = -sample.n() * change[i];
+      for (std::size_t j = 0; j <= i; ++j, ++k)
+        out.information.set(i, j, sample.n() * (of_law[4 + k] - of_law[i] * of_law[j] + second[k]));
+    }
+    return out;
+  }
+
+  // The best law near another one, if there is one.
+  GammaLaw best_near(const GammaLaw &near) const {
+    const auto law_of = [this](const Numbers &p) {
+      return GammaLaw{lower, std::exp(p[2]), p[0], p[1]};
+    };
+    const Maximum top = maximise([&](const Numbers &p) { return (*this)(law_of(p), 3); },
+                                 {near.gamma, near.v0, std::log(near.delta)});
+    GammaLaw law = law_of(top.p);
+    if (top.converged) law.log_likelihood = top.at.value / sample.n();
+    return law;
+  }
+
+  // Best delta in (delta_min, delta_max): from the best of a coarse scan, since there may be
+  // several maxima.
   GammaLaw best() const {
     constexpr int steps = 20;
-    const double first = std::log(delta_min), width = std::log(delta_max / delta_min) / steps;
     std::vector<GammaLaw> scan;
-    for (int i = 0; i <= steps; ++i) scan.push_back(at(std::exp(first + i * width)));
+    for (int i = 0; i <= steps; ++i)
+      scan.push_back(at(delta_min * std::pow(delta_max / delta_min, i / double{steps})));
     const auto top = std::max_element(scan.begin(), scan.end(), [](const auto &a, const auto &b) {
       return a.log_likelihood < b.log_likelihood;
     });
-    if (top == scan.begin() || top == scan.end() - 1 || std::isinf(top->v0)) return *top;
-    return between(*(top - 1), *top, *(top + 1), 1e-7);
+    const bool inside = top != scan.begin() && top != scan.end() - 1 && !std::isinf(top->v0);
+    return inside ? best_near(*top) : *top;
   }
-
-  // The same for a replica: searches outwards from the best delta of the data. The tolerance only
-  // has to keep the error far below that of the distance to be computed.
-  GammaLaw best_near(double delta) const {
-    constexpr double width = 0.15;
-    const auto beside = [this, delta](int k) { return at(delta * std::exp(k * width)); };
-    GammaLaw low = beside(-1), middle = at(delta), high = beside(1);
-    for (int k = 1; std::isfinite(middle.log_likelihood) && !std::isinf(middle.v0); ++k) {
-      if (middle.log_likelihood >= low.log_likelihood &&
-          middle.log_likelihood >= high.log_likelihood)
-        return between(low, middle, high, 1e-4);
-      if (k == 8) break;
-      const bool up = high.log_likelihood > low.log_likelihood;
-      const double next = (up ? high : low).delta * std::exp(up ? width : -width);
-      if (!(next > delta_min && next < delta_max)) break;
-      (up ? low : high) = std::exchange(middle, up ? high : low);
-      (up ? high : low) = at(next);
-    }
-    return best();
-  }
-
- private:
-  // Brent's method between two values of delta that bracket a better one.
-  GammaLaw between(const GammaLaw &low, const GammaLaw &middle, const GammaLaw &high,
-                   double tolerance) const {
-    gsl_function function;
-    function.params = const_cast<ProfileLikelihood *>(this);
-    function.function = [](double x, void *self) {
-      return -static_cast<const ProfileLikelihood *>(self)->at(std::exp(x)).log_likelihood;
-    };
-    const Gsl<gsl_min_fminimizer> minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
-                                            gsl_min_fminimizer_free);
-    gsl_min_fminimizer *const work = minimiser.get();
-    if (gsl_min_fminimizer_set_with_values(
-            work, &function, std::log(middle.delta), -middle.log_likelihood, std::log(low.delta),
-            -low.log_likelihood, std::log(high.delta), -high.log_likelihood) != GSL_SUCCESS)
-      return middle;
-    for (int i = 0; i < 50 && gsl_min_fminimizer_iterate(work) == GSL_SUCCESS; ++i)
-      if (gsl_min_fminimizer_x_upper(work) - gsl_min_fminimizer_x_lower(work) < tolerance) break;
-    return at(std::exp(gsl_min_fminimizer_x_minimum(work)));
-  }
-};
-
-// Derivatives of ln f, apart from ln C, with respect to the parameters.
-struct Derivatives {
-  Derivatives(double v, const GammaLaw &law) {
-    const double delta = law.delta, w = delta * (v - law.v0), s = std::exp(w);
-    first = {0.0, v, delta * s, -s * w};
-    second[log_delta][log_delta] = -s * w * (1.0 + w);
-    second[log_delta][scale] = second[scale][log_delta] = delta * s * (1.0 + w);
-    second[scale][scale] = -delta * delta * s;
-  }
-  Vector first;
-  Matrix second{};
 };
 
 // A function that draws from the law.
@@ -294,8 +287,7 @@ std::vector<double> logs_from(double lo, const std::vector<double> &values) {
 }
 
 // Why the best law does not belong to the family, or "".
-std::string no_density(const ProfileLikelihood &likelihood, const GammaLaw &best,
-                       bool delta_fixed) {
+std::string no_density(const GammaLikelihood &likelihood, const GammaLaw &best, bool delta_fixed) {
   // Tested first, since data from a pure power law drive the parameters to a boundary or along a
   // ridge.
   if (best.truncated() &&
@@ -309,49 +301,21 @@ std::string no_density(const ProfileLikelihood &likelihood, const GammaLaw &best
   return why;
 }
 
-// Observed information of the sample on the free parameters; ln C follows from them by
-// normalisation.
-// \param mean_slope receives the means of the first derivatives over the law
-SymmetricMatrix information_at(const GammaLaw &law, const Sample &sample,
-                               const TabulatedDensity &table, bool delta_fixed,
-                               Numbers &mean_slope) {
-  for (std::size_t a = shape; a < parameters; ++a)
-    mean_slope[a] = table.mean([&](double v) { return Derivatives(v, law).first[a]; });
-  SymmetricMatrix information(delta_fixed ? 2 : 3);
-  for (std::size_t i = 0; i < information.n; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      const std::size_t a = shape + i, b = shape + j;
-      const double of_law = table.mean([&](double v) {
-        const Derivatives at(v, law);
-        return at.first[a] * at.first[b] + at.second[a][b];
-      });
-      const double of_data =
-          b == shape ? 0.0
-                     : sample.mean([&](double v) { return Derivatives(v, law).second[a][b]; });
-      information(i, j) = information(j, i) =
-          sample.n() * (of_law - mean_slope[a] * mean_slope[b] - of_data);
-    }
-  return information;
-}
-
-void report(const Sample &sample, const GammaLaw &best, double reference,
+void report(const GammaLikelihood &likelihood, const GammaLaw &best, double reference,
             GeneralisedGammaFit &fit) {
-  const auto &[lower, delta, gamma, v0, log_likelihood] = best;
-  const double mode = gamma > 0.0 ? v0 + std::log(gamma / delta) / delta : -HUGE_VAL;
-  const TabulatedDensity table =
-      tabulate([&best](double x) { return best.gamma * x - std::exp(best.delta * (x - best.v0)); },
-               std::max(mode, lower), lower, HUGE_VAL, 1.0 / delta);
-  Numbers slope_c(parameters);
   const Covariance covariance =
-      covariance_of(information_at(best, sample, table, fit.delta_fixed, slope_c));
+      covariance_of(likelihood(best, fit.delta_fixed ? 2 : 3).information);
   if (covariance.n == 0) {
     fit.why = singular;
     return;
   }
-  for (double &slope : slope_c) slope = -slope;
-  slope_c[shape] -= reference;
-  report({-table.log_z - gamma * reference, gamma, v0, std::log(delta)}, slope_c,
-         of_all(covariance, shape), reference, fit);
+  // The slopes of ln C are minus the means of those of ln f over the law, or over the sample.
+  const Vector slopes = likelihood.sample.mean_of(slopes_of(best));
+  const double log_c =
+      best.log_likelihood - best.gamma * likelihood.mean_v + slopes[1] / best.delta;
+  report({log_c - best.gamma * reference, best.gamma, best.v0, std::log(best.delta)},
+         {0.0, -slopes[0] - reference, -slopes[1], -slopes[2]}, of_all(covariance, shape),
+         reference, fit);
 }
 
 // ---- least squares
@@ -438,10 +402,10 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
   if (!(*greatest - *least > 1e-9)) return without_numbers(fit, "all values are equal");
   Sample sample(std::move(v));
-  const ProfileLikelihood likelihood{sample, lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL};
+  const GammaLikelihood likelihood{sample, lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL};
   const GammaLaw best = fit.delta_fixed ? likelihood.at(delta) : likelihood.best();
   fit.why = no_density(likelihood, best, fit.delta_fixed);
-  if (fit.why.empty()) report(sample, best, reference, fit);
+  if (fit.why.empty()) report(likelihood, best, reference, fit);
   if (std::isfinite(best.log_likelihood))
     fit.log_likelihood = sample.n() * (best.log_likelihood - likelihood.mean_v - reference);
   if (!fit.why.empty()) return fit;
@@ -469,18 +433,34 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
   fit.lo = used.front().lo;
   const double reference = sum / static_cast<double>(fit.n);
   const std::vector<BinnedDensity> data = binned_densities(used, reference);
-  Numbers weights;
-  for (const LogBin &bin : used) weights.push_back(static_cast<double>(bin.count));
+  // Weighted residuals are normal, with an information that does not depend on them.
   const auto solve = [&](const std::vector<Numbers> &starts, const Vector &held) {
-    return least_squares(weights, starts, [&](std::size_t i, const Numbers &p, Numbers &slope) {
-      return log_average(data[i], completed(p, held), slope) - data[i].log_density;
-    });
+    const auto likelihood = [&](const Numbers &p) {
+      Likelihood at{0.0, Numbers(p.size()), SymmetricMatrix(p.size())};
+      Numbers slope(p.size());
+      for (std::size_t i = 0; i < data.size(); ++i) {
+        const double off = data[i].log_density - log_average(data[i], completed(p, held), slope);
+        const auto weight = static_cast<double>(used[i].count);
+        at.value -= 0.5 * weight * off * off;
+        for (std::size_t a = 0; a < p.size(); ++a) {
+          at.score[a] += weight * off * slope[a];
+          for (std::size_t b = 0; b < p.size(); ++b)
+            at.information(a, b) += weight * slope[a] * slope[b];
+        }
+      }
+      return at;
+    };
+    Maximum best;
+    for (const Numbers &start : starts)
+      if (Maximum found = maximise(likelihood, start); found.at.value > best.at.value)
+        best = std::move(found);
+    return best;
   };
 
   const double last = std::log(used.back().hi) - reference;
   const double first_c = std::log(used.front().density);
   // Pure power law: the scale is held so far beyond the data that there is no fall-off.
-  const LeastSquares power_law = solve({{first_c, 0.5}}, {0.0, 0.0, last + 1000.0, 0.0});
+  const Maximum power_law = solve({{first_c, 0.5}}, {0.0, 0.0, last + 1000.0, 0.0});
   std::vector<Numbers> starts;
   for (const double v0 : {0.0, 0.5 * last, last}) {
     if (fit.delta_fixed) starts.push_back({first_c, 0.5, v0});
@@ -488,22 +468,28 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
       if (!fit.delta_fixed) starts.push_back({first_c, 0.5, v0, std::log(start)});
   }
   const Vector held = {0.0, 0.0, 0.0, std::log(delta)};
-  LeastSquares best = solve(starts, held);
+  const Maximum best = solve(starts, held);
   // Tested first, since data from a pure power law drive the parameters to a boundary or along a
   // ridge.
-  if (power_law.converged && power_law.chi2 - best.chi2 < least_gain(fit.delta_fixed))
+  if (power_law.converged &&
+      2.0 * (best.at.value - power_law.at.value) < least_gain(fit.delta_fixed))
     fit.why = no_fall_off;
   else if (!fit.delta_fixed && !best.p.empty())
     fit.why = outside(std::exp(best.p[log_delta]));
-  if (fit.why.empty() && !best.converged) fit.why = "no optimum found";
-  if (fit.why.empty() && best.covariance.n == 0) fit.why = singular;
+  if (fit.why.empty() && best.p.empty()) fit.why = "no optimum found";
   if (!fit.why.empty()) return fit;
-  for (double &entry : best.covariance.entries) entry *= std::max(1.0, best.chi2 / fit.dof);
+  Covariance covariance = covariance_of(best.at.information);
+  if (covariance.n == 0) return without_numbers(fit, singular);
+  const double chi2 = -2.0 * best.at.value;
+  for (double &entry : covariance.entries) entry *= std::max(1.0, chi2 / fit.dof);
   // From ln C in units of exp(reference) to ln C in the unit of the data.
   Vector p = completed(best.p, held);
   p[log_c] -= p[shape] * reference;
-  report(p, {1.0, -reference, 0.0, 0.0}, of_all(best.covariance, log_c), reference, fit);
-  if (!fit.degenerate) fit.chi2 = best.chi2;
+  const Covariance all = of_all(covariance, log_c);
+  if (!best.converged && ridge(p, all, reference).empty())
+    return without_numbers(fit, "no optimum found");
+  report(p, {1.0, -reference, 0.0, 0.0}, all, reference, fit);
+  if (!fit.degenerate) fit.chi2 = chi2;
   return fit;
 }
 
@@ -528,8 +514,10 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
   };
   // Any optimum counts as the fit of a replica, even if it would be called degenerate for data.
   fitted.refit = [&](const Sample &sample) {
-    const ProfileLikelihood replica{sample, law.lower};
-    const GammaLaw best = fit.delta_fixed ? replica.at(fit.delta) : replica.best_near(fit.delta);
+    const GammaLikelihood replica{sample, law.lower};
+    GammaLaw best = replica.at(fit.delta);
+    if (!fit.delta_fixed) best = replica.best_near(best);
+    if (!fit.delta_fixed && !std::isfinite(best.log_likelihood)) best = replica.best();
     return std::isfinite(best.log_likelihood) ? best.cdf() : FittedLaw::Function();
   };
   // Without truncation, a thousandth of a value is expected below the first edge.

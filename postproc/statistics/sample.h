@@ -6,6 +6,7 @@
 #define LSM_POSTPROC_SAMPLE_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -43,10 +44,20 @@ class Sample {
   /// Mean of f over the sample.
   template <class F>
   double mean(const F &f) const {
-    NeumaierSum sum;
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      sum.add(counts_.empty() ? f(values_[i]) : counts_[i] * f(values_[i]));
-    return sum.value() / n_;
+    return mean_of([&f](double value) { return std::array<double, 1>{f(value)}; })[0];
+  }
+  /// Means of several functions, which f returns as an array.
+  template <class F>
+  auto mean_of(const F &f) const {
+    std::array<NeumaierSum, std::tuple_size_v<decltype(f(0.0))>> sums;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      auto terms = f(values_[i]);
+      for (std::size_t k = 0; k < terms.size(); ++k)
+        sums[k].add(counts_.empty() ? terms[k] : counts_[i] * terms[k]);
+    }
+    auto means = f(0.0);
+    for (std::size_t k = 0; k < means.size(); ++k) means[k] = sums[k].value() / n_;
+    return means;
   }
 
   /// Largest distance between the empirical distribution of a sorted, non-empty sample and the

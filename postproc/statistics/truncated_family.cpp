@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "estimation.h"
 #include "gsl_owners.h"
 
 namespace LSM::postproc {
@@ -66,25 +66,23 @@ double tilted_variance(double z) {
 
 namespace {
 
-// The tilt z of a density on [0, 1] with a given mean, by Newton's method within a bracket. In bins
-// of width `step`, the mean is that of their centres: a value is the lower edge of its bin plus a
-// part that has the same density within the bin, so the mean of the edges is a difference of two
-// means, and likewise the variance.
+// The tilt z of a density on [0, 1] with a given mean. In bins of width `step`, the mean is that of
+// their centres: a value is the lower edge of its bin plus a part that has the same density within
+// the bin, so the mean of the edges is a difference of two means, and likewise the variance.
 double tilt_of_mean(double mean, double step) {
   if (mean > 0.5) return -tilt_of_mean(1.0 - mean, step);
   const double edges = mean - 0.5 * step;
-  // The root is above the tilt of an infinite length.
-  double low = step > 0.0 ? -std::log1p(step / edges) / step : -1.0 / mean, high = 0.0;
-  double z = mean < 0.25 ? low : std::max(low, 12.0 * (mean - 0.5));
-  for (int i = 0; i < 200; ++i) {
-    const double excess = tilted_mean(z) - step * tilted_mean(step * z) - edges;
-    (excess > 0.0 ? high : low) = z;
-    double next = z - excess / Exponential{1.0, z, step}.variance();
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::fabs(next - z) <= 4e-16 * std::fabs(z)) break;
-    z = next;
-  }
-  return z;
+  // The tilt of an infinite length, or of a density that is nearly flat.
+  const double low = step > 0.0 ? -std::log1p(step / edges) / step : -1.0 / mean;
+  const auto likelihood = [=](const Numbers &p) {
+    const double z = p[0];
+    Likelihood at{z * edges - log_normalisation(z) + log_normalisation(step * z),
+                  {edges - tilted_mean(z) + step * tilted_mean(step * z)},
+                  SymmetricMatrix(1)};
+    at.information(0, 0) = Exponential{1.0, z, step}.variance();
+    return at;
+  };
+  return maximise(likelihood, {mean < 0.25 ? low : std::max(low, 12.0 * (mean - 0.5))}).p[0];
 }
 
 }  // namespace
@@ -153,101 +151,40 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
   return table;
 }
 
-namespace {
-
-// The law exp(b u - c T(u)) on [0, length], and the sufficient statistics of a sample.
-struct TiltedLaw {
-  Statistic statistic;
-  double mean_u, mean_t, length;
-  double b = 0.0, c = 0.0, log_likelihood = 0.0;  // per event
-  TabulatedDensity table = {};
-  std::vector<double> t = {};  // T(u) at the abscissae of the table
-
-  void set(double new_b, double new_c) {
-    b = new_b;
-    c = new_c;
-    const double rate = statistic.rate;
-    double mode = b / (2.0 * c);
-    if (rate > 0.0) mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
-    // The logarithm of the density bends over 1 / rate for T = exp(rate u), and over the standard
-    // deviation of the Gaussian for T = u^2.
-    const double feature = rate > 0.0 ? 1.0 / rate : 1.0 / std::sqrt(2.0 * c);
-    t.clear();
-    const auto log_density = [this](double u) { return b * u - c * t.emplace_back(statistic(u)); };
-    table = tabulate(log_density, std::clamp(mode, 0.0, length), 0.0, length, feature);
-    // Only the last evaluations were at the abscissae of the table.
-    t.erase(t.begin(), t.end() - static_cast<std::ptrdiff_t>(table.u.size()));
-    log_likelihood = b * mean_u - c * mean_t - table.log_z;
-  }
-
-  // Newton step for the likelihood, whose Hessian is minus the covariance of (u, -T), and its
-  // expected gain; NaN if the covariance is singular.
-  struct Step {
-    double b, c, gain;
-  };
-  Step newton() const {
-    const double m_u = table.mean([](double u) { return u; });
-    const double m_t = std::inner_product(t.begin(), t.end(), table.p.begin(), 0.0);
-    double uu = 0.0, ut = 0.0, tt = 0.0;
-    for (std::size_t i = 0; i < table.u.size(); ++i) {
-      const double du = table.u[i] - m_u, dt = t[i] - m_t;
-      uu += table.p[i] * du * du;
-      ut += table.p[i] * du * dt;
-      tt += table.p[i] * dt * dt;
-    }
-    const double g_b = mean_u - m_u, g_c = m_t - mean_t;
-    const double determinant = uu * tt - ut * ut;
-    if (!(determinant > 0.0)) return {0.0, 0.0, NAN};
-    const double b_step = (g_b * tt + g_c * ut) / determinant;
-    const double c_step = (g_c * uu + g_b * ut) / determinant;
-    return {b_step, c_step, g_b * b_step + g_c * c_step};
-  }
-
-  // Takes the step, halved until the likelihood increases; c stays positive.
-  // \return false if no such step is found
-  bool take(const Step &step) {
-    const double from_b = b, from_c = c, from_likelihood = log_likelihood;
-    double scale = from_c + step.c > 0.1 * from_c ? 1.0 : -0.9 * from_c / step.c;
-    for (; scale >= 1e-12; scale *= 0.5) {
-      set(from_b + scale * step.b, from_c + scale * step.c);
-      // Near the maximum the gain is lost in rounding, so equality up to that is a success.
-      if (log_likelihood > from_likelihood - 1e-14 * (1.0 + std::fabs(from_likelihood)))
-        return true;
-    }
-    return false;
-  }
-};
-
-}  // namespace
-
 TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length) {
   // The likelihood is concave: its slope in c at the best exponential shows whether c > 0 is
   // better.
+  const double rate = statistic.rate;
   const Exponential law = Exponential::of_mean(mean_u, length);
   TiltedFit fit;
   fit.b = law.b;
   fit.log_likelihood = law.b * mean_u - law.log_z();
-  const double expected_t =
-      statistic.rate > 0.0
-          ? std::exp(Exponential{length, law.b + statistic.rate}.log_z() - law.log_z())
-          : law.variance() + mean_u * mean_u;
+  const double expected_t = rate > 0.0
+                                ? std::exp(Exponential{length, law.b + rate}.log_z() - law.log_z())
+                                : law.variance() + mean_u * mean_u;
   fit.converged = expected_t <= mean_t;
   if (fit.converged) return fit;
-
-  TiltedLaw tilted{statistic, mean_u, mean_t, length};
-  tilted.set(law.b, 0.1 / mean_t);
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    const TiltedLaw::Step step = tilted.newton();
-    fit.converged = step.gain < 1e-20;
-    if (fit.converged) {
-      fit.b = tilted.b;
-      fit.c = tilted.c;
-      fit.log_likelihood = tilted.log_likelihood;
-      return fit;
-    }
-    if (std::isnan(step.gain) || !tilted.take(step)) return fit;
-  }
-  return fit;
+  const auto likelihood = [&](const Numbers &p) -> Likelihood {
+    const double b = p[0], c = p[1];
+    if (!(c > 0.0)) return {};
+    double mode = b / (2.0 * c);
+    if (rate > 0.0) mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
+    // The logarithm of the density bends over 1 / rate for T = exp(rate u), and over the standard
+    // deviation of the Gaussian for T = u^2.
+    const TabulatedDensity table =
+        tabulate([&](double u) { return b * u - c * statistic(u); }, std::clamp(mode, 0.0, length),
+                 0.0, length, rate > 0.0 ? 1.0 / rate : 1.0 / std::sqrt(2.0 * c));
+    const auto [u, t, uu, ut, tt] = table.mean_of([&](double x) -> std::array<double, 5> {
+      const double of_x = statistic(x);
+      return {x, of_x, x * x, x * of_x, of_x * of_x};
+    });
+    Likelihood at{
+        b * mean_u - c * mean_t - table.log_z, {mean_u - u, t - mean_t}, SymmetricMatrix(2)};
+    at.information.entries = {uu - u * u, u * t - ut, u * t - ut, tt - t * t};
+    return at;
+  };
+  const Maximum best = maximise(likelihood, {law.b, 0.1 / mean_t});
+  return best.converged ? TiltedFit{best.p[0], best.p[1], best.at.value, true} : fit;
 }
 
 }  // namespace LSM::postproc

@@ -49,11 +49,21 @@ struct TabulatedDensity {
     for (std::size_t i = 0; i < u.size(); ++i) sum += p[i] * f(u[i]);
     return sum;
   }
+  /// Means of several functions, which f returns as an array.
+  template <class F>
+  auto mean_of(F f) const {
+    auto sums = f(0.0);
+    sums.fill(0.0);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const auto terms = f(u[i]);
+      for (std::size_t k = 0; k < terms.size(); ++k) sums[k] += p[i] * terms[k];
+    }
+    return sums;
+  }
 };
 
 /// Gauss-Legendre table of a log-concave density.
-/// \param log_density its logarithm up to a constant; the last calls are those at the abscissae of
-/// the table, in their order
+/// \param log_density its logarithm up to a constant
 /// \param mode maximum of the density within the limits
 /// \param lower, upper limits; either may be infinite
 /// \param feature shortest length over which the logarithm of the density bends
