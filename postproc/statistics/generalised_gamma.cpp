@@ -12,7 +12,6 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
