@@ -11,11 +11,12 @@ BASE-source-energy, tables with pictures. The columns, in model units (of a line
   centroid_time         mean time, weighted by the moment rate
   stress_work           half the sum of the stresses before and after, times slip
   friction_work         what friction took up
-  contact_energy        what contacts stored: the work of stress on slip, interval by interval, less friction_work
+  contact_energy        what contacts stored: the work of stress on slip, interval by interval, less friction_work; below 0
+                        where stress falls
   radiated_energy       stress_work less friction_work and contact_energy
   apparent_stress       modulus times radiated_energy over slip_moment
-  fracture_energy       what friction took up above the strength, that at which half of the slip of a place was done; not of Coulomb friction,
-                        which has none
+  fracture_energy       what friction took up above the strength, that at which half of the slip of a place was done; not of Coulomb friction;
+                        too low where strength falls within an interval or two
   weighted_stress_drop  mean of the places, weighted by their slip
   corner_frequency      of Brune's spectrum, M / (1 + (f / corner)^2), fitted to that of the moment rate; 0 if intervals are too long
 Stresses before and after are those of stress_drop. Moment rates are along the moment and count slip as the catalogue does; energies count
