@@ -43,12 +43,6 @@ struct TabulatedDensity {
   std::vector<double> u, p;  ///< p sums to 1
   double log_z = 0.0;        ///< logarithm of the integral of exp(log_density)
 
-  template <class F>
-  double mean(F f) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < u.size(); ++i) sum += p[i] * f(u[i]);
-    return sum;
-  }
   /// Means of several functions, which f returns as an array.
   template <class F>
   auto mean_of(F f) const {
