@@ -100,7 +100,7 @@ def speed_values():
         yield Value(f"speed.saved.{name}", 1 - speed_tables.saved(SAVED[name]), source=file)
     rows = read(FOLDER / "speed/slider.csv")
     for scheme in "printed", "verlet":
-        plain, active = (median(float(row[key]) for row in rows if row["scheme"] == scheme) for key in ("scalar_s", "active_s"))
+        plain, active = (median(float(row[key]) for row in rows if row["scheme"] == scheme) for key in ("plain_s", "active_s"))
         yield Value(f"speed.active.{scheme}", plain / active, source="speed/slider.csv")
     rates = {row["run"]: float(row["time_per_core_hour"]) for row in read(FOLDER / "speed/whole-job.csv")}
     for name, run in ("same", "ours_0.06"), ("usual", "ours_0.12"):
