@@ -39,7 +39,8 @@ def found(folder, pattern):
     """{path: curves} of slip histories, then of boundary integrals, the finest last. \\raises ValueError if there are none"""
     out = {}
     for ending in ("slip.bin", "csv"):
-        paths = sorted(Path(folder).glob(f"{pattern}.{ending}"), key=lambda path: -spacing_of(path))
+        paths = [path for path in Path(folder).glob(f"{pattern}.{ending}") if not path.name.endswith(".ruptures.csv")]
+        paths.sort(key=lambda path: -spacing_of(path))
         if not paths:
             raise ValueError(f"{folder}: no {pattern}.{ending}")
         out |= {path: benchmark.history_of(path)[1] if ending == "slip.bin" else next(iter(benchmark.references_of(path).values())) for path in paths}

@@ -33,7 +33,7 @@ for dx in 100 50 25; do "$integral" tpv101 "$dx" 7 1500 >"tpv101.$dx.csv"; done
 for factor in 2.2 2.3 2.4 2.5 2.6 1000; do
   for dx in 100 50; do "$integral" tpv3 "$dx" 8 100 barrier="$factor" >"barrier.$factor.$dx.csv"; done
   for dx in "$@"; do
-    [ "$dx" -lt 100 ] || run tpv3 "barrier.$factor.$dx" "$dx" "${block[@]}" -var tend 8 -var barrier "$factor"
+    [ "$dx" -lt 100 ] || run tpv3 "barrier.$factor.$dx" "$dx" "${block[@]/%6/8}" -var barrier "$factor"
   done
 done
 packings=()
