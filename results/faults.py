@@ -502,7 +502,7 @@ def publish_runs(postproc, *names):
     update_table(BURSTS, [
         "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt, one_line: one line",
         "more than half of that; share: of these periods; rates of drops >= 1e-4 in 1000 time units; else: without bursts (faults.py publish)"
-    ], [bursts_of(postproc, folder) for folder in full if "_120_" in folder.name])
+    ], [bursts_of(postproc, folder) for folder in full if "_120_" in folder.name], lambda row: (FAULTS.index(row["fault"]), int(row["packing"])))
     update_table(
         SPECTRUM,
         ["Drops in 1000 time units of the series of a run, and of series whose changes have its spectrum with random phases (faults.py publish)"],
