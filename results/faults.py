@@ -193,7 +193,7 @@ USUAL = 0.00025  # velocity of a plate
 
 def picked_again(postproc, pe, dt, memory, path):
     """Picks a series, with times from its beginning."""
-    slip_or_exchange.write_series(path.with_suffix(".bin"), pe, dt)
+    lsm.write_series(path.with_suffix(".bin"), dt * np.arange(len(pe)), pe, overwrite=True)
     subprocess.run([postproc, "pick", path.with_suffix(".bin"), "-o", path, "--memory-time", str(memory)], check=True, capture_output=True)
     path.with_suffix(".bin").unlink()
     return path

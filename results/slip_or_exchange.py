@@ -9,7 +9,6 @@ RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes, FO
 lsm.slip says what counts as slip.
 """
 import lzma
-import struct
 import sys
 from pathlib import Path
 
@@ -39,13 +38,6 @@ def events(run, output, begin=LOADING):
 
 
 # ---- other series
-
-
-def write_series(path, pe, dt):
-    head = f"# model = lsm\n# dt = {dt:.17g}\n# step0 = 0\n# time0 = 0\n# stride = 1\n".encode()
-    records = np.zeros(len(pe), [("step", "<i8"), ("pe", "<f8")])
-    records["step"], records["pe"] = np.arange(len(pe)), pe
-    Path(path).write_bytes(b"lsm-pe-series-1\n" + struct.pack("<q", len(head)) + head + records.tobytes())
 
 
 def with_phases(series, rng):
