@@ -34,26 +34,21 @@ class Cell(NamedTuple):
 
 
 CELLS = (
-    *(Cell(f"speed.slider.{blocks}", "speed/slider-size.csv", "ns_per_moving_block", {"blocks": blocks}) for blocks in ("1000", "1000000")),
     Cell("single.ledger", "accuracy_fault.csv", "error_ledger", {"variant": "standard", "method": "located", "dt": "0.03"}),
     Cell("absorbing_step.released", "accuracy_catalogues.csv", "released", {"dt": "0.12", "onset": "located"}, "released_error"),
 )
 COSTS = {"ledger": "energy ledger", "location": "location of events", "pressure": "pressure every step"}
 SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
-NATURE = (("distance", "fault_1890", "fault 1890", "0.0001"), ("distance", "california_2.5", "Southern California", "5623.4132519034911"),
-          ("distance", "two_faults", "2 faults 945 apart", "0.0001"), ("b", "fault_1890", "fault 1890", "0.0001"),
-          ("b", "california", "Southern California", "1000"), ("after", "california", "Southern California",
-                                                               "1000"), ("after", "weakening", "fault 120 weakening", "0.001"))
+NATURE = (("california", "Southern California", "1000"), ("weakening", "fault 120 weakening", "0.001"))
 WALK = (("to_fault", "springs", "chain-512"), ("to_fault", "blocks", "bulk-512"), ("short", "springs_256", "chain-256"),
         ("local", "springs", "ruptures-chain-512"), ("local", "blocks", "ruptures-bulk-512"), ("local", "fault", "ruptures-fault"))
 FAST, SLOW = {"run": "2.5e-4_no_leaps"}, {"run": "2.5e-8_leaps_2.5e-4"}
 CHAIN = {"blocks": "256", "seed": "1"}
 BEYOND = (
-    *(Cell(f"nature.{column}.{name}", "nature.table.csv", column, dict(label=label, threshold=least), f"{column}_error")
-      for column, name, label, least in NATURE),
+    *(Cell(f"nature.after.{name}", "nature.table.csv", "after", dict(label=label, threshold=least), "after_error") for name, label, least in NATURE),
     *(Cell(f"walk.{column}.{name}", "walk.csv", column, {"station": station}, f"{column}_error") for column, name, station in WALK),
     *(Cell(f"slow.gamma.{name}", "slow-driving.csv", "gamma", where, "gamma_error") for name, where in (("fast", FAST), ("slow", SLOW))),
-    *(Cell(f"chain.{column}.{name}", "slow-driving-slider.csv", column, CHAIN | where, f"{column}_error") for column in ("exponent", "gamma")
+    *(Cell(f"chain.gamma.{name}", "slow-driving-slider.csv", "gamma", CHAIN | where, "gamma_error")
       for name, where in (("fast", {"velocity": "1e-2", "leap": "0"}), ("slow", {"velocity": "1e-7", "leap": "1e-3"}))),
 )
 PEERS = {"harmonic": "bond harmonic", "bpm": "bond bpm/spring", "esys": "ESyS-Particle"}
@@ -113,7 +108,6 @@ def speed_values():
     for part, seconds in ("programs", first["programs"]), ("fault", first["fault"]), ("total", sum(first.values())):
         yield Value(f"speed.first.{part}", seconds / 60, unit="minutes", source="speed/jobs.csv")
     counts = [row for row in read(FOLDER / "speed/scale.csv") if row["ranks"] == "8"]
-    yield Value("speed.share.8", max(float(row["largest_share"]) for row in counts) - 1, source="speed/scale.csv")
     for name, row in (("120", counts[0]), ("1890", counts[-1])):
         yield Value(f"speed.kilobytes.{name}", float(row["bytes"]) / 1000, source="speed/scale.csv")
 

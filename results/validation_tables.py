@@ -199,8 +199,6 @@ def rupture_values():
     for name, (run, file) in finest.items():
         for key in ("rate_l2",) if name == "tpv3" else ("arrival", "slip", "rate_l2"):
             yield Value(f"{name}.{key}", run[key], source=file)
-    yield Value("tpv5.rate_low_l2", plane["150 m"]["rate_low_l2"], source="rupture_3d-convergence.csv")
-    yield Value("tpv5.mean.soft", plane["200 m kt 1.5"]["mean"], source="rupture_3d-convergence.csv")
     yield Value("tpv5.order.scatter", order_of(plane["200 m"], plane["150 m"], "scatter"), source="rupture_3d-convergence.csv")
     runs = tpv101_runs()
     for key in ("arrival", "slip", "peak"):
