@@ -100,6 +100,12 @@ def over(runs, measure):
     return mean_and_error(*zip(*found)) if found else (math.nan, math.nan)
 
 
+def quotient(one, other):
+    """A number with its error over another."""
+    (value, error), (base, of_base) = one, other
+    return value / base, value / base * math.hypot(error / value, of_base / base)
+
+
 @functools.cache
 def excess_of(path):
     return slip.excess_of(loaded(path))
@@ -609,8 +615,7 @@ def ruptures_figure(base=FOLDER / "ruptures"):
         beside = leaky[row["length"], row["over"], row["x"]]
         row |= dict.fromkeys(("ratio", "ratio_error"), math.nan)
         if row is not beside and beside["rate"] and row["rate"]:
-            ratio = row["rate"] / beside["rate"]
-            row |= dict(ratio=ratio, ratio_error=ratio * math.hypot(*(one["error"] / one["rate"] for one in (row, beside))))
+            row["ratio"], row["ratio_error"] = quotient(*((one["rate"], one["error"]) for one in (row, beside)))
     write_table(f"{base}.csv", [
         "Ruptures, in 1000 time units and 120 of the length, of at least a work of friction, or of at least so many places and a work of",
         "0.001; ratio: to those of the leaky fault of this length (faults.py)"
@@ -701,8 +706,8 @@ def scaling_values():
 def growth_values():
     """Rate of drops of the longest faults over that of the shortest."""
     for fault in FAULTS:
-        (short, a), (long, b) = (over(runs_of(fault, length), lambda run: drops(run, 1e-4)) for length in (LENGTHS[0], LENGTHS[-1]))
-        yield Value(f"ratio.drops.lengths.{fault}", long / short, long / short * math.hypot(a / short, b / long), source="values.csv")
+        long, short = (over(runs_of(fault, length), lambda run: drops(run, 1e-4)) for length in (LENGTHS[-1], LENGTHS[0]))
+        yield Value(f"ratio.drops.lengths.{fault}", *quotient(long, short), source="values.csv")
 
 
 def fit_values(postproc):
@@ -742,21 +747,19 @@ def velocity_values():
         paired = sorted(full.keys() & slow.keys() & loaded.keys(), key=int)
         for least in SIZES if paired else ():
             for kind, rows in ("slow", slow), ("loaded", loaded):
-                pairs = [[float(of[k][f"rate_{least:g}{end}"]) for of in (rows, full) for end in ("", "_error")] for k in paired]
-                ratios = [(value / full, value / full * math.hypot(own / value, error / full)) for value, own, full, error in pairs]
+                ratios = [quotient(*([float(of[k][f"rate_{least:g}{end}"]) for end in ("", "_error")] for of in (rows, full))) for k in paired]
                 yield Value(f"velocity.ratio.{kind}.{fault}.{least:g}", *mean_and_error(*zip(*ratios)), "", len(paired), "picked.csv")
 
 
 def estimator_values():
-    """Least and largest gamma over the memory of the picker, and gamma and B over the smallest size."""
+    """Least and largest gamma over the smallest size, by likelihood."""
     cells = {}
     for row in estimators():
-        for key, axis in ("gamma", "memory"), ("gamma", "smallest size"), ("B", "smallest size"):
-            if row["over"] == axis and math.isfinite(row[key]):
-                cells.setdefault(f"estimator.{key}.{row['fault']}.{axis.replace(' ', '_')}.{row['estimator']}", []).append(row[key])
-    for name, some in cells.items():
-        yield Value(f"{name}.least", min(some), n=len(some), source="estimators.csv")
-        yield Value(f"{name}.most", max(some), n=len(some), source="estimators.csv")
+        if (row["over"], row["estimator"]) == ("smallest size", "likelihood"):
+            cells.setdefault(row["fault"], []).append(row["gamma"])
+    for fault, some in cells.items():
+        for name, choose in ("least", min), ("most", max):
+            yield Value(f"estimator.gamma.{fault}.smallest_size.likelihood.{name}", choose(some), n=len(some), source="estimators.csv")
 
 
 def burst_values():
@@ -785,8 +788,7 @@ def variant_values():
     for usual in USUAL_RUNS:
         fault, length, packing = usual.split("_")
         if wide := rows.get(f"{fault}_wide_{length}_{packing}"):
-            (value, error), (full, of_full) = ((float(row["drops"]), float(row["drops_error"])) for row in (wide, rows[usual]))
-            ratios.setdefault(fault, []).append((value / full, value / full * math.hypot(error / value, of_full / full)))
+            ratios.setdefault(fault, []).append(quotient(*((float(row["drops"]), float(row["drops_error"])) for row in (wide, rows[usual]))))
     for fault, some in ratios.items():
         yield Value(f"variant.drops.wide.{fault}", *mean_and_error(*zip(*some)), "", len(some), "variants.csv")
 

@@ -11,7 +11,7 @@ FOLDER = Path(__file__).resolve().parent
 KEYS = (
     ("rate ratio", "rates of drops and of slips, and how much the faults differ in them"),
     ("exponent gamma B run within", "exponent of sizes, gamma, B and mean time of drops, by likelihood; how many runs are within the tolerances"),
-    ("estimator cut", "gamma and B with other smallest sizes, memories, smallest times and estimators"),
+    ("estimator cut", "gamma with other smallest sizes and smallest times"),
     ("velocity", "rates at half the velocity of the plates"),
     ("share", "share of drops that are slip, with two nulls"),
     ("budget", "work of friction, and the share of large slips in it"),

@@ -27,12 +27,16 @@ DROP, NUCLEUS = 7e6, 11.6e6  # stress drop, and more of it within 1500 m
 ENERGY = 0.5 * 0.152 * 120e6 * 0.4  # fracture energy outside the barrier, J/m^2
 
 
+def name_of(path):
+    return path.name.removesuffix(".csv").removesuffix(".slip.bin")
+
+
 def spacing_of(path):
-    return float(path.name.removesuffix(".csv").removesuffix(".slip.bin").rsplit(".", 1)[1])
+    return float(name_of(path).rsplit(".", 1)[1])
 
 
 def factor_of(path):
-    return float(path.name.removesuffix(".csv").removesuffix(".slip.bin").split(".", 1)[1].rsplit(".", 1)[0])
+    return float(name_of(path).split(".", 1)[1].rsplit(".", 1)[0])
 
 
 def found(folder, pattern):

@@ -200,16 +200,12 @@ def rupture_values():
         for key in ("rate_l2",) if name == "tpv3" else ("arrival", "slip", "rate_l2"):
             yield Value(f"{name}.{key}", run[key], source=file)
     yield Value("tpv5.order.scatter", order_of(plane["200 m"], plane["150 m"], "scatter"), source="rupture_3d-convergence.csv")
-    runs = tpv101_runs()
+    lattice = tpv101_runs()["lattice"][-1]
     for key in ("arrival", "slip", "peak"):
-        yield Value(f"tpv101.{key}", runs["lattice"][-1][key], source=STATIONS["TPV101"])
-        yield Value(f"tpv101.integral.{key}", runs["boundary integral"][-1][key], source=CONVERGENCE)
-    barriers = barrier_runs()
-    for method in ("boundary integral", "lattice"):
-        breaks, stops, held = next(value for (name, _), value in reversed(barriers.items()) if name == method)
-        name = "integral" if method != "lattice" else method
-        for key, value in (("breaks", breaks), ("stops", stops), ("held", held)):
-            yield Value(f"barrier.{name}.{key}", value, unit="MJ/m^2", source=BARRIER)
+        yield Value(f"tpv101.{key}", lattice[key], source=STATIONS["TPV101"])
+    breaks, _, held = next(value for (name, _), value in reversed(barrier_runs().items()) if name == "lattice")
+    for key, value in ("breaks", breaks), ("held", held):
+        yield Value(f"barrier.lattice.{key}", value, unit="MJ/m^2", source=BARRIER)
     static = next(float(row["static"]) for row in read(FOLDER / BARRIER) if row["static"])
     yield Value("barrier.static", static, unit="MJ/m^2", source=BARRIER)
     pylith = rupture_benchmark.summary(stations_of("TPV205", lambda row: row["reference"].startswith("PyLith") and row["spacing"] == "50"))
