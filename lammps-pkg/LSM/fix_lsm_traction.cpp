@@ -313,12 +313,15 @@ void FixLSMTraction::post_force(int /*vflag*/)
     for (int s : {BELOW, ABOVE}) {
       if (!(atom->mask[i] & side[s])) continue;
       const double up = s == ABOVE ? 1.0 : -1.0;
-      const double more = added.empty() ? 0.0 : added[i] * share_of(i);
-      if (!std::isfinite(more))
-        error->one(FLERR, Error::NOLASTLINE,
-                   "Fix lsm/traction: added traction of particle {} is {}, but must be finite",
-                   atom->tag[i], added[i]);
-      const double fx = up * (load[SHEAR][i] + more), fy = -up * load[NORMAL][i];
+      double shear = load[SHEAR][i];
+      if (!added.empty()) {
+        shear += added[i] * share_of(i);
+        if (!std::isfinite(shear))
+          error->one(FLERR, Error::NOLASTLINE,
+                     "Fix lsm/traction: added traction of particle {} is {}, but must be finite",
+                     atom->tag[i], added[i]);
+      }
+      const double fx = up * shear, fy = -up * load[NORMAL][i];
       f[i][0] += fx;
       f[i][1] += fy;
       work += fx * v[i][0] + fy * v[i][1];

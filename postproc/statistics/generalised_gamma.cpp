@@ -515,8 +515,10 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
   fitted.refit = [&](const Sample &sample) {
     const GammaLikelihood replica{sample, law.lower};
     GammaLaw best = replica.at(fit.delta);
-    if (!fit.delta_fixed) best = replica.best_near(best);
-    if (!fit.delta_fixed && !std::isfinite(best.log_likelihood)) best = replica.best();
+    if (!fit.delta_fixed) {
+      best = replica.best_near(best);
+      if (!std::isfinite(best.log_likelihood)) best = replica.best();
+    }
     return std::isfinite(best.log_likelihood) ? best.cdf() : FittedLaw::Function();
   };
   // Without truncation, a thousandth of a value is expected below the first edge.
