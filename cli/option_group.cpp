@@ -98,9 +98,6 @@ Rule whole_number(std::uint64_t most) {
   return number_that<std::uint64_t>([most](std::uint64_t value) { return value <= most; },
                                     "a whole number from 0 to " + std::to_string(most));
 }
-Rule number_or(const std::map<std::string, double> &words) {
-  return transform(CLI::Transformer(words));
-}
 Rule transformed(const std::function<std::string(std::string &)> &change) {
   return transform(CLI::Validator(change, ""));
 }

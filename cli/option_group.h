@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -43,8 +42,6 @@ inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int6
 /// are too large into the largest one.
 Rule whole_number(std::uint64_t most);
 Rule among(const std::vector<std::string> &words);
-/// A number, or one of the words that stand for numbers.
-Rule number_or(const std::map<std::string, double> &words);
 /// Applies a function that changes the text of the value or returns what is wrong with it.
 Rule transformed(const std::function<std::string(std::string &)> &change);
 

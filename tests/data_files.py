@@ -195,16 +195,3 @@ def power_law(exponent, low, high, n, seed=1):
         return low * (high / low)**u
     a = 1 - exponent
     return (low**a + u * (high**a - low**a))**(1 / a)
-
-
-def omori(main_shocks=42, after=50, apart=5000.0, c=2.0, span=97.3, rate=50):
-    """Times and sizes of main shocks of 100, each followed by events of 0.01 by Omori's law with p = 2,
-    t = c (1 / (1 - q) - 1), and by others at even intervals."""
-    times, sizes = [], []
-    for m in range(main_shocks):
-        q = (np.arange(after) + (m + 0.5) / main_shocks) / after
-        even = span * (np.arange(rate) + (m + 0.5) / main_shocks)
-        times += [apart * m, *(apart * m + 10 + c * (1 / (1 - q) - 1)), *(apart * m + 10 + even)]
-        sizes += [100.0] + [0.01] * (after + rate)
-    order = np.argsort(times, kind="stable")
-    return np.array(times)[order], np.array(sizes)[order]

@@ -4,8 +4,6 @@ p: two-sample tests against the first run, times as displacements of the plates;
 time units of a main shock, per main shock; after_displacement, before_displacement: those later or earlier than that, up to a
 displacement of 0.04; same: how many of the events >= 1e-2 of the first run (of) are matched here within a displacement of 0.02 and
 a factor of 2 in size, and how many by chance."""
-import math
-
 from recipes import fit_command, ratio, times_command
 
 reference = "2.5e-4_no_leaps"
@@ -14,13 +12,13 @@ drawings = ["slow-driving"]
 
 def numbers(run):
     end = f"--to {1200 + 18 / run.shorten / run['velocity']:.15g}"  # compression; then the plates move, over 150 time units up to their velocity
-    window = f"--window {0.04 / run['velocity']:.15g} --first 1 --bin-factor {math.sqrt(10):.15g}"
+    window = f"--window {0.04 / run['velocity']:.15g} --first 1"
     return {
         "count": f"count {run.catalogue} {end}",
         "fit": fit_command(run.catalogue, end, "--range 1e-3:1e-1 --range 1e-3:1 --range 1e-2:1"),
         "times_small": times_command(run.catalogue, end, "--threshold 1e-3"),
         "times_large": times_command(run.catalogue, end, "--threshold 1e-2"),
-        "around": f"aftershocks {run.catalogue} {end} --threshold 1e-3 --main-size 0.1 {window} --replicas 0 --no-picture -o OUT",
+        "around": f"sequences.py {run.catalogue} {end} --threshold 1e-3 --main-size 0.1 {window}",
     }
 
 
@@ -34,7 +32,7 @@ def comparisons(run, reference):
 
 def table(run, found):
     all_of, sizes, fits, tests, match = found.count.catalogues[0], found.count.sizes, found.fit.fits, found.compare.tests, found.match.matches[0]
-    small, large, shocks = found.times_small.fits[0], found.times_large.fits[0], found.around.laws[0].main_shocks
+    small, large, shocks = found.times_small.fits[0], found.times_large.fits[0], found.around.sequences[0].main_shocks
     early, late = ([one for one in found.around.rates if (one.bin_hi < 101) == soon] for soon in (True, False))
     near = {f"{side}_100": ratio(sum(one[key] for one in early), shocks) for side, key in (("after", "count"), ("before", "before"))}
     far = {f"{side}_displacement": ratio(sum(one[key] for one in late), shocks) for side, key in (("after", "count"), ("before", "before"))}

@@ -79,21 +79,17 @@ void add_catalogues(CLI::App *command, CatalogueOptions &of) {
       "much time between events from --from to --to, over its size; may be repeated, and all have "
       "to hold",
       one_each(), kind("CONDITION"), shown(""));
-  add_format(group, of, "--format");
-  group.add("--region", of.regions,
-            "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
-            one_each(), kind("W/E/S/N"), shown(""));
-}
-
-void add_format(OptionGroup group, CatalogueOptions &of, const std::string &name) {
   group.add(
-      name, of.format,
+      "--format", of.format,
       "Format of the files: detect (by the first bytes: '<' is quakeml, '{' geojson, "
       "'# lsm-catalogue' models, column names with time and mag csv, YYYY/MM/DD scedc, nine "
       "numbers zmap), or one of these. Events whose type says that they are no earthquakes "
       "(blasts, ...) are left out and counted on standard error; if they are most, that is an "
       "error unless --lenient",
       among({"detect", "models", "csv", "quakeml", "geojson", "zmap", "scedc"}));
+  group.add("--region", of.regions,
+            "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
+            one_each(), kind("W/E/S/N"), shown(""));
 }
 
 void add_displacement(CLI::App *command, CatalogueOptions &of) {

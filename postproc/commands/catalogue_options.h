@@ -14,8 +14,6 @@ namespace LSM::postproc {
 
 /// Adds the arguments for catalogues and the options that select events to a command.
 void add_catalogues(CLI::App *command, CatalogueOptions &of);
-/// Adds the option for the format of the files, which add_catalogues() calls --format.
-void add_format(OptionGroup group, CatalogueOptions &of, const std::string &name);
 /// Adds --displacement, for commands whose output does not state a unit of time.
 void add_displacement(CLI::App *command, CatalogueOptions &of);
 /// Adds --magnitude-bin, for commands whose results depend on it.

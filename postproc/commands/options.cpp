@@ -119,8 +119,6 @@ void MagnitudeOptions::check() const {
         "--magnitude-constant with --unit-length, from which it follows: expected one of them");
 }
 
-std::string MagnitudeOptions::type() const { return !in_si() ? "M" : of_moment() ? "Mw" : "Me"; }
-
 std::string MagnitudeOptions::text() const {
   if (!in_si())
     return fmt::format("M = {} log10({}) + {}", short_number(MagnitudeScale::slope), of(),

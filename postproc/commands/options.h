@@ -59,8 +59,6 @@ struct MagnitudeOptions {
   double quantity(const EventRow &event, const CatalogueInfo &info) const {
     return of_moment() ? info.number(event, "slip_moment") : event.size;
   }
-  /// Type of the magnitude: Mw or Me in SI units, otherwise M.
-  std::string type() const;
   /// Formula of the magnitude, for people.
   std::string text() const;
   /// Magnitude scale of one catalogue.

@@ -245,6 +245,7 @@ assert np.allclose([drop[a] - drop[b] for a, b in zip(events["step_start"], even
 assert history["step_end"].max() <= 3100 and slip.shape == (int(history.header["bins"]),) and slip.mean() > 0
 assert (history["step_begin"][1:] == history["step_end"][:-1]).all() and velocity.shape == (len(history) - 1, slip.size)
 assert rates["events"].sum() == len(events) and np.isclose(rates["released"].sum(), events["size"].sum())
+assert quakes["time"][0] >= np.datetime64("2000-01-01") and np.allclose(10**(1.5 * quakes["magnitude"] + 9.1), moment)
 assert len(lsm.read_series("shear.bin")) == 20000 and len(spectrum) == 257 and (spectrum["density"] > 0).all()
 """
     (folder / "page.py").write_text(code)

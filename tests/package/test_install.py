@@ -63,7 +63,7 @@ def test_install(work):
     run(lmp, scene(inputs / "fault_120.in", length=20, settle=100, steps=200, prefix="fault"))
     assert os.path.getsize("fault.catalogue.csv") > 0 and os.path.getsize("fault.pe.bin") > 0
     postproc = installed(root / "bin/postproc")
-    run(postproc, "export slider.csv -o table.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0")
+    run(postproc, "select slider.csv -o table.csv")
     assert len(rows("table.csv")) > 1
     run(postproc, "explore slider.csv -o page.html")
     assert "Dygraph" in Path("page.html").read_text(), "the page is without its library"

@@ -44,7 +44,6 @@ WRITERS = [
     "fit slider.csv --replicas 0 --no-picture -o pic --json {base}.csv",
     "pick slider.pe -o {base}.csv",
     "select slider.csv -o {base}.csv",
-    "export slider.csv -o {base}.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0",
 ]
 
 KEPT = [("slider.csv", "a catalogue"), ("slider.pe", "a PE series"), ("slider.ck", "a checkpoint"), ("restart", "a restart file"),
@@ -63,7 +62,7 @@ def test_nothing_else_is_replaced(postproc, files, line, kept, content):
     assert Path("base.csv").read_bytes() != Path(kept).read_bytes()
 
 
-@pytest.mark.parametrize("line", [line for line in WRITERS if not line.startswith(("pick", "select", "export"))])
+@pytest.mark.parametrize("line", [line for line in WRITERS if not line.startswith(("pick", "select"))])
 def test_what_a_command_wrote_is_replaced(postproc, files, line):
     words = line.format(base="base")
     run(postproc, words)
@@ -75,7 +74,6 @@ def test_what_a_command_wrote_is_replaced(postproc, files, line):
 @pytest.mark.parametrize("line", [
     "series slider.pe --no-picture -o out/pic --json out/n.json",
     "pick slider.pe -o out/picked.csv --json out/n.json",
-    "export slider.csv -o out/t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0 --json out/n.json",
     "fit slider.csv --replicas 0 --no-picture -o out/fit --json out/n.json",
     "intervals slider.csv --replicas 0 --no-picture -o out/times --json out/n.json",
 ])
@@ -201,7 +199,7 @@ SELECTIONS = """
     fit slider.csv -o x --region -122/-114/32/37   | --region, but no catalogue is of earthquakes
     count slider.csv --from 5 --from 9             | from '9': a second model time, expected one for all catalogues
     count quakes.csv --from 10                     | --from or --to is a number, but all catalogues are of earthquakes, expected a date
-    export quakes.csv -o x --from 10               | --from or --to is a number, but all catalogues are of earthquakes, expected a date
+    fit quakes.csv -o x --from 10                  | --from or --to is a number, but all catalogues are of earthquakes, expected a date
     count quakes.csv --from monday                 | from 'monday': expected a model time, or for earthquakes a date
     count quakes.csv --to 1985-01-01 --to 1990-01-01 | to '1990-01-01': a second date, expected one
     count quakes.csv --region 1/2/3                | expected W/E/S/N in degrees
@@ -222,10 +220,6 @@ def test_every_region_counts(postproc, work):
         "--region 0/360/-90/90 --region 170/-170/-90/90")
     west, east, all_of, again, line = [row["events"] for row in json.loads(Path("n.json").read_text())["catalogues"]]
     assert all_of == again == 300 and west + east >= 300 and 0 < line < west, found
-    run(
-        postproc,
-        "export quakes.csv -o t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0 --region -180/180/-90/90 --region 0/180/-90/90")
-    assert len(Path("t.csv").read_text().splitlines()) == 1 + 300 + east
 
 
 # ---------------------------------------------------------------- headers

@@ -14,25 +14,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import (edit, header, loading_with_drops, numbers, omori, pick, rows, same_bytes, table, unknown_keys, write_catalogue, write_series)
+from data_files import (edit, header, loading_with_drops, numbers, pick, rows, same_bytes, table, unknown_keys, write_catalogue, write_series)
 from programs import SOURCE, refused, run
 
 PICKER = dict(picker="literal", min_size=0, **{"lambda": 0.5})
 CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
 
 
-def chosen(arguments):
-    """export has no default dates and magnitudes: adds those of the tests, unless a test gives its own."""
-    if not str(arguments[0]).startswith("export") or " --unit-length" in " ".join(map(str, arguments)):
-        return arguments
-    usual = ("--time-unit", "second"), ("--start-date", "2000-01-01"), ("--magnitude-constant", "0")
-    said = " ".join(map(str, arguments))
-    return (*arguments, *[f"{option} {value}" for option, value in usual if option not in said])
-
-
 @pytest.fixture
 def do(postproc):
-    return lambda *arguments, **more: run(postproc, *chosen(arguments), **more)
+    return lambda *arguments, **more: run(postproc, *arguments, **more)
 
 
 @pytest.fixture
@@ -40,7 +31,7 @@ def no(postproc):
     """no(pattern, arguments): expects that postproc refuses the arguments."""
 
     def refuses(pattern, *arguments, **more):
-        return refused(postproc, " ".join(chosen(arguments)) if len(arguments) == 1 else list(arguments), pattern, **more)
+        return refused(postproc, arguments[0] if len(arguments) == 1 else list(arguments), pattern, **more)
 
     return refuses
 
@@ -123,7 +114,7 @@ def test_pick_settings(do, no):
     series("known.bin", completeness="small")
     no("known.bin: header line .*: completeness is 'small', expected a finite size of at least 0", "pick known.bin -o x.csv")
     # Other commands can read the catalogue.
-    do("export c.csv -o table.csv")
+    do("count c.csv")
     # An older file is kept unless --overwrite is given; a damaged series leaves no output.
     no("c.csv: exists already", "pick pe.bin -o c.csv")
     bad = made[2].copy()
@@ -254,35 +245,6 @@ def test_compare(do, no):
 
 
 # ---- other formats
-def exported(path):
-    """Lines of an exported table, with numbers rounded to ten digits."""
-    return [re.sub(r"\d+\.\d{10,}", lambda number: f"{float(number[0]):.9g}", line) for line in Path(path).read_text().splitlines()]
-
-
-def test_export(do, no):
-    catalogue("c.csv")
-    do("export c.csv -o s.csv").printed("^4 events; left out: 0 of size <= 0")
-    assert exported("s.csv") == """longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size,magnitude_type
-0,0,0,2000-01-01T00:00:00.000000,0,1,0,1.5,1,M
-0,0,0,2000-01-01T00:00:02.000000,-2,2,0,1,0.001,M
-0,0,0,2000-01-02T00:00:00.250000,2,3,0,0.75,1000,M
-0,0,0,2000-01-02T00:00:04.000001,-4,6,0,0.9999995,1e-06,M""".splitlines()
-    do("export c.csv -o p.csv --format csep --magnitude-constant 4.5 --time-unit day --start-date 1999-12-31T12:00:00", "--to 1000 --min-size -10")
-    assert Path("p.csv").read_text() == """lon,lat,mag,time_string,depth,catalog_id,event_id
-0,0,4.5,1999-12-31T12:00:00.000000,0,0,1
-0,0,2.5,2000-01-02T12:00:00.000000,0,0,2
-"""
-    do("export c.csv -o half.csv --time-unit second --start-date 2000-01-01T00:00:00.75 --magnitude-constant 0")
-    assert table("half.csv")[0]["time"] == "2000-01-01T00:00:00.750000"
-    do("export c.csv c.csv -o two.csv --min-size -10").printed("^8 events; left out: 2 of size <= 0")
-    assert sorted(row["catalog_id"] for row in table("two.csv")) == ["0"] * 4 + ["1"] * 4
-    no("s.csv: exists already", "export c.csv -o s.csv")
-    no("event 3 starts at time 86400.25, a date outside the years 1700 to 2261", "export c.csv -o x.csv --time-unit year")
-    for date in "2000-13-01", "2001-02-29", "yesterday", "2000-01-01T12":
-        no(f"start-date '{date}': expected a date", "export c.csv -o x.csv --start-date " + date)
-    no("time-unit", "export c.csv -o x.csv --time-unit -1")
-
-
 def gutenberg_richter(path="gr.csv"):
     """Writes magnitudes above -2 with b = 1, M = -2 - log10(1 - q) for evenly spaced q; sizes are 10^(1.5 M)."""
     i = np.arange(2000)
@@ -301,54 +263,7 @@ def test_magnitudes_of_moments(do, no):
     no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
     no("complete-from 'nowhere', expected 'header', 'curvature' or a magnitude", "magnitudes gr.csv -o x --complete-from nowhere")
     without_column("gr.csv", "plain.csv")
-    for command in "magnitudes plain.csv -o x --complete-from -2", "export plain.csv -o x.csv":
-        no("plain.csv: has no column slip_moment", f"{command} --magnitude-of moment")
-
-
-def number(cell):
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
-
-
-def omori_row(path="a.omori.csv"):
-    """The cells of the only row, counted from 1."""
-    found = [row.split(",") for row in rows(path) if row.startswith("lsm")]
-    assert len(found) == 1, found
-    return dict(enumerate(map(number, found[0]), 1))
-
-
-def test_aftershocks(do, no):
-    """42 main shocks, before the first of which there is no time: p = 2, c = 2, K = 100, background
-    1/97.3."""
-    times, sizes = omori()
-    write_catalogue("omori.csv", times, sizes, t_end=np.where(sizes == 100, times + 10, times), pe_start=[1] * len(times), pe_end=[1] * len(times))
-    first = do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 19")
-    value = omori_row()
-    assert value[6] == 41 and 1.9 < value[10] < 2.1 and 1.7 < value[12] < 2.3 and 75 < value[14] < 130, value
-    assert 0.0098 < value[16] < 0.0108 and value[18] > 1000 and value[19] == 0.05, value
-    for said in ("smallest main shock 50", "largest for so long before and after 1000", "main shocks 41",
-                 "share of Poisson catalogues as large 0.05"):
-        first.printed(f"^ {said}$")
-    # The stacked rate is the count in a bin per main shock and time unit.
-    stacked = [[number(cell) for cell in row.split(",")] for row in rows("a.csv") if row.startswith("1,")]
-    assert len(stacked) > 8
-    for row in stacked:
-        assert row[6] == pytest.approx(row[5] / (41 * (row[3] - row[2])), rel=1e-4)
-    do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2").printed("^ c 2$")
-    # Single events at quasi-random times in intervals of 10 have no aftershocks.
-    i = np.arange(5000)
-    t = 10 * (i + i * 0.618034 % 1)
-    write_catalogue("even.csv", t, np.where(i % 100 == 50, 100, 0.01), pe_start=[1] * 5000, pe_end=[1] * 5000)
-    do("aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0").printed("degenerate no decay")
-    assert 0.095 < omori_row()[8] < 0.101 and omori_row()[10] == omori_row()[12] == ""
-    # By default main shocks are a certain share of the events.
-    do("aftershocks omori.csv -o a --no-picture --replicas 0").printed("^ smallest main shock 0.01$")
-    no("no event of size 1000 or larger, expected a smaller --main-size", "aftershocks omori.csv -o x --main-size 1000")
-    no("first time after main shocks: expected 0 or more, below the window", "aftershocks omori.csv -o x --first 20 --window 10")
-    no("c held at 0.000000, expected 0 or more \\(0 needs a first time above 0\\)", "aftershocks omori.csv -o x --hold-c 0 --main-size 50")
-    no("excludes --main-s", "aftershocks omori.csv -o x --main-size 1 --main-share 0.1")
+    no("plain.csv: has no column slip_moment", "magnitudes plain.csv -o x --complete-from -2 --magnitude-of moment")
 
 
 def gzipped(raw):
@@ -365,16 +280,16 @@ def test_compressed(do, way):
     catalogue("events.csv")
     series("pe.bin")
     do("pick pe.bin -o picked.csv")
-    do("export events.csv -o plain.csv")
+    do("select events.csv -o plain.csv")
     Path("packed-pe").write_bytes(way(Path("pe.bin").read_bytes()))
     piped(do, "pick", "cat packed-pe", "--lenient -o piped.csv")
     assert rows("piped.csv") == rows("picked.csv")
     # Two compressed halves, one after the other, are one file.
     head = Path("events.csv").read_bytes().splitlines(True)
     Path("halves").write_bytes(way(b"".join(head[:7])) + way(b"".join(head[7:])))
-    do("export halves -o other.csv")
+    do("select halves -o other.csv")
     same_bytes("plain.csv", "other.csv")
-    piped(do, "export", "cat halves", "-o other.csv --overwrite")
+    piped(do, "select", "cat halves", "-o other.csv --overwrite")
     same_bytes("plain.csv", "other.csv")
 
 
@@ -382,19 +297,19 @@ def test_compressed(do, way):
 def test_damaged_compression(do, no, way, name):
     catalogue("events.csv")
     whole = way(Path("events.csv").read_bytes())
-    for command, length in ("export torn -o x", len(whole) - 5), ("histograms torn -o x --lenient", 40):
+    for command, length in ("select torn -o x", len(whole) - 5), ("histograms torn -o x --lenient", 40):
         Path("torn").write_bytes(whole[:length])
         no(f"^postproc: torn: truncated {name} file", command)
     # A bit of the data or of the checksum is flipped.
     for at in 60, len(whole) - 10:
         Path("flipped").write_bytes(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1:])
-        no(f"^postproc: flipped: (damaged|truncated) {name} file", "export flipped -o x")
+        no(f"^postproc: flipped: (damaged|truncated) {name} file", "select flipped -o x")
     series("pe.bin")
     Path("torn").write_bytes(way(Path("pe.bin").read_bytes()[:-5]))
     no("torn: truncated record 5000", "pick torn -o x")
     do("pick torn -o other.csv --lenient").warned("dropped a truncated last sample")
     Path("other").write_bytes(bz2.compress(b"1"))
-    no("other: compressed by bzip2, expected gzip, xz or a file that is not compressed", "export other -o x")
+    no("other: compressed by bzip2, expected gzip, xz or a file that is not compressed", "select other -o x")
 
 
 # ---- pages, tables, JSON
@@ -453,9 +368,6 @@ def test_json(do, no):
         same_numbers(path, "j.json", name)
     do("compare picked.csv picked.csv --threshold 1e-7 --replicas 10 -o v --json v.json")
     same_numbers("v.csv", "v.json", "tests")
-    do("export c.csv -o e.csv --json e.json")
-    said = Path("e.json").read_text()
-    assert '"events": 4' in said and '"without_magnitude": 0' in said
     # With -, standard output contains nothing but JSON.
     found = json.loads(do("count c.csv --size 0.001 --size 1 --brief 50 --json -").out)
     sizes, one = found["sizes"], found["catalogues"][0]
@@ -472,7 +384,7 @@ def test_faults(do, postproc, faults):
     series("pe.bin", 500)
     before = Path("events.csv").read_bytes().replace(b"\n", b" of before\n")
     part = Path("part")
-    for words in "export events.csv --time-unit 1 --start-date 2000-01-01 --magnitude-constant 0 --overwrite -o", "pick pe.bin --overwrite -o", "fit events.csv --overwrite --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json":
+    for words in "select events.csv --overwrite -o", "pick pe.bin --overwrite -o", "fit events.csv --overwrite --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json":
         do(words, "whole")
         whole = Path("whole").read_bytes()
         part.write_bytes(before)
@@ -495,11 +407,10 @@ def test_faults(do, postproc, faults):
 def test_outputs_are_not_inputs(no, work):
     """An input is not replaced, whichever of the outputs would do so."""
     catalogue("good.csv")
-    for name in "fits", "table1", "bvalues", "omori":
+    for name in "fits", "table1", "bvalues":
         shutil.copy("good.csv", f"own.{name}.csv")
-    for words in ("magnitudes own.bvalues.csv -o own", "aftershocks own.omori.csv -o own", "histograms good.csv -o ./good",
-                  "intervals own.table1.csv -o own", "fit own.fits.csv -o own", "fit good.csv -o x --json good.csv",
-                  f"export good.csv -o ../{work.name}/good.csv --overwrite"):
+    for words in ("magnitudes own.bvalues.csv -o own", "histograms good.csv -o ./good", "intervals own.table1.csv -o own", "fit own.fits.csv -o own",
+                  "fit good.csv -o x --json good.csv", f"select good.csv -o ../{work.name}/good.csv --overwrite"):
         no("is read by this command, expected another name", words)
     series("pe.csv", 50)
     shutil.copy("pe.csv", "own-events.csv")
@@ -508,14 +419,14 @@ def test_outputs_are_not_inputs(no, work):
     for path in "x.csv", "./x.fits.csv", f"{work}/x.gp":
         no("are the same file", "fit good.csv -o x --json " + path)
     shutil.copy("good.csv", "part.csv.new")
-    no("is read by this command", "export part.csv.new -o part.csv")
+    no("is read by this command", "select part.csv.new -o part.csv")
 
 
 def test_bad_options(do, no):
     catalogue("good.csv")
     for seed in "-1", "18446744073709551616", "1.5":
         no(f"seed: expected a whole number from 0 to 18446744073709551615, not '{seed}'", f"intervals good.csv --seed={seed} -o x")
-    for command in "histograms", "intervals", "fit", "magnitudes", "aftershocks":
+    for command in "histograms", "intervals", "fit", "magnitudes":
         no("ends with a folder, expected a file name", command + " good.csv -o ./")
         for number in "-1", "nan":
             no(f"threshold: expected a number of 0 or more, not '{number}'", f"{command} good.csv --threshold {number} -o x")
@@ -524,11 +435,11 @@ def test_bad_options(do, no):
     no("subcommand", "")
     no("expected one of pick, series", "smooth good.csv")
     no("is required", "pick good.csv")
-    no("from 3 --to 2: expected --from before --to", "export good.csv -o x --from 3 --to 2")
+    no("from 3 --to 2: expected --from before --to", "select good.csv -o x --from 3 --to 2")
     do("--version").printed("^postproc [0-9]")
 
 
-@pytest.mark.parametrize("command", "pick histograms intervals fit series magnitudes aftershocks export explore".split())
+@pytest.mark.parametrize("command", "pick histograms intervals fit series magnitudes select explore".split())
 def test_bad_files(do, no, command):
     said = do(command, "--help").out
     assert "--output" in said and "Exit status" not in said
@@ -609,9 +520,8 @@ def test_where(do, no):
     do("select c.csv --where event_id>1 --where event_id<=3 -o two.csv")
     assert left("two.csv") == [2, 3]
     do("select c.csv --where event_id>1 -o later.csv")
-    do("export later.csv -o of-later.csv")
-    do("export c.csv -o of-all.csv --where event_id>1")
-    assert Path("of-later.csv").read_text() == Path("of-all.csv").read_text()
+    counts = [json.loads(do(words).out)["sizes"] for words in ("count later.csv --json -", "count c.csv --json - --where event_id>1")]
+    assert counts[0] == counts[1]
     no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where", "select c.csv --where peak_slip>0 -o x.csv")
     for text in "size", "size>", ">1", "size ~ 1", "size>1.2.3", "size >> 1":
         no("--where '.*': expected a column, one of < <= > >= = != and a number", "select", "c.csv", "-o", "x.csv", "--where", text)
@@ -627,7 +537,7 @@ def test_where(do, no):
     no("f.csv: no time between events from --from to --to, expected two or more apart for --where excess",
        "select f.csv -o x.csv --where excess>0 --from 25")
     no("has no column excess", "select c.csv -o x.csv --where excess>0")
-    no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")
+    no("earthquakes, expected a catalogue of a model for --where", f"count {CALIFORNIA} --where size>1")
 
 
 # ---- earthquakes

@@ -141,11 +141,7 @@ def test_seismology(do, no):
     pictures("m")
     said("m.gp", "b = 1.")
     said("m.svg", re.escape("a_{x} (2000 events)"))
-    do("aftershocks a.csv b.csv -o s --replicas 10")
-    pictures("s")
-    said("s.gp", "filledcurves")
     no("nothing to draw", "magnitudes a.csv --min-size 1e9 -o x")
-    no("expected at least 2", "aftershocks a.csv --min-size 1e9 -o x")
 
 
 def test_tables_of_many_catalogues_fit_a_terminal(do):
@@ -185,7 +181,7 @@ def test_few(do, no):
 # ---- whatever a name or a label holds, nothing is run and all is drawn
 DRAW = {
     "histograms": "histograms a.csv b.csv", "intervals": "intervals a.csv b.csv --replicas 0", "fit": "fit a.csv b.csv --replicas 0 --range 1e-2:1",
-    "magnitudes": "magnitudes a.csv b.csv --threshold 1e-3", "aftershocks": "aftershocks a.csv b.csv --replicas 0", "series": "series pe.bin"
+    "magnitudes": "magnitudes a.csv b.csv --threshold 1e-3", "series": "series pe.bin"
 }
 
 
@@ -227,7 +223,7 @@ def shows(page, label):
     assert label in text, f"label {label} is not in {page}"
 
 
-@pytest.mark.parametrize("command", ["histograms", "intervals", "fit", "magnitudes", "aftershocks"])
+@pytest.mark.parametrize("command", ["histograms", "intervals", "fit", "magnitudes"])
 def test_labels(do, drawable, command):
     for label in ["'old' run"] + LABELS * (command == "histograms"):
         do(DRAW[command], ["--overwrite", "--output=l", "--label", label, "--label", "other"])

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""match.py, periods.py, nature.py and rupture_benchmark.py: examples by hand, chance, and what is refused."""
+"""match.py, sequences.py, periods.py, nature.py and rupture_benchmark.py: examples by hand, chance, and what is refused."""
 import json
 import math
 import sys
 
 import numpy as np
 import pytest
-from data_files import rows, write_catalogue
+from data_files import power_law, rows, write_catalogue
 from programs import SOURCE, Program, refused, run
 
 RESULTS = SOURCE / "results"
@@ -16,6 +16,7 @@ import nature  # noqa: E402
 import periods  # noqa: E402
 import rupture_benchmark as benchmark  # noqa: E402
 import rupture_varied  # noqa: E402
+import sequences  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 
 # ---- match.py
@@ -65,6 +66,39 @@ def test_match_of_files(work):
     refused(script, "a.csv b.csv --threshold 0.5 --within 0.1 --to 0.01", "a.csv: a catalogue without events")
     write_catalogue("still.csv", [1, 2], [1, 1])
     refused(script, "a.csv still.csv --threshold 0.5 --within 0.1", "still.csv: no velocity in the header")
+
+
+# ---- sequences.py
+
+
+def test_sequences_by_hand(work):
+    """Main shocks at 100, 320 and 500. One at 20 has too little time before it, that at 905
+    too little after it, and 300 is followed by a larger one. Around 100, which ends at 102: 58 is too early, 70 and 96 come before, as
+    does 85, which ends at 99.5, too late to be counted; 100.5 is within, 102.5 too soon, 112 and 142 come after, 143 too late."""
+    starts = [0, 20, 58, 70, 85, 96, 100, 100.5, 102.5, 112, 142, 143, 300, 320, 499, 500, 540, 905, 910]
+    sizes = [1, 9, 1, 1, 1, 1, 9, 1, 1, 1, 1, 1, 9, 10, 0.1, 9, 1, 9, 1]
+    lasts = {85.0: 14.5, 100.0: 2, 58.0: 1}
+    ends = [t + lasts.get(t, 0) for t in map(float, starts)]
+    write_catalogue("a.csv", starts, sizes, t_end=ends)
+    script = Program("sequences.py", sys.executable, RESULTS / "sequences.py")
+    run(script, "a.csv --threshold 0.5 --main-size 9 --window 40 --first 1 --json s.json")
+    found = json.load(open("s.json"))
+    # 320 and 500 are main shocks, too; 540 is at the end of the window of the latter.
+    assert found["sequences"] == [dict(main_shocks=3, events=3, before=3, why="3 events after main shocks, at least 20 needed")]
+    assert [(round(row["bin_hi"], 3), row["count"], row["before"]) for row in found["rates"]] == [(3.162, 0, 0), (10.0, 0, 1), (31.623, 1, 2)]
+    assert found["rates"][2]["rate"] == pytest.approx(1 / 3 / (10**1.5 - 10))
+    refused(script, "a.csv --threshold 0.5 --main-size 9 --window 40 --first 40", "expected 0 < --first < --window")
+    refused(script, "a.csv --threshold 0.5 --main-size 9 --window 40 --first 1 --from 1e6", "a.csv: a catalogue without events")
+
+
+def test_decay_of_known_laws():
+    """Omori's law with p = 0.8 alone and with as many events at a constant rate; a constant rate; a rate that rises."""
+    decaying, even = power_law(0.8, 1, 1000, 3000), 1 + 999 * (np.arange(3000) + 0.5) / 3000
+    assert sequences.decay(decaying, 1, 1000)["p"] == pytest.approx(0.8, abs=0.01)
+    both = sequences.decay(np.concatenate([decaying, even]), 1, 1000)
+    assert both["p"] == pytest.approx(0.8, abs=0.05) and both["gain"] > 100
+    assert sequences.decay(even, 1, 1000) == dict(why="no decay: a constant rate fits as well")
+    assert sequences.decay(power_law(-1, 1, 1000, 300), 1, 1000) == dict(why="the rate rises with time")
 
 
 # ---- periods.py
