@@ -17,6 +17,7 @@ FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "python"))
 import lsm  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
+from lsm.history import History  # noqa: E402
 from lsm.tables import read  # noqa: E402
 from values import Value  # noqa: E402
 
@@ -96,14 +97,11 @@ def half_spacing():
 def write_event(history, number, path):
     """Slip of the rupture in each bin."""
     one = next(row for row in lsm.read_catalogue(path) if row["event_id"] == int(number))
-    records = lsm.read_slip(history)
-    inside = records[(records["step_begin"] >= one["step_start"]) & (records["step_end"] <= one["step_end"])]
-    slip = inside["slip"][..., 0].sum(axis=0)
+    history = History(history)
+    slip = history.records["slip"][history.of(one), ..., 0].sum(axis=0)
     with open(DATA / "event.csv", "w", encoding="utf-8") as out:
         out.write("x,z,slip\n")
-        for i, row in enumerate(slip):
-            for j, value in enumerate(row):
-                out.write(f"{float(records.header['x0']) + i + 0.5:g},{float(records.header['z0']) + j + 0.5:g},{value:.4g}\n")
+        out.writelines(f"{x:g},{z:g},{value:.4g}\n" for x, row in zip(history.x, slip) for z, value in zip(history.z, row))
 
 
 SCRIPT = """set multiplot layout 2,2 spacing 0.12,0.13

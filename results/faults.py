@@ -35,6 +35,7 @@ import slip_or_exchange  # noqa: E402
 from lsm import LOADING, scaling, slip, summary  # noqa: E402
 from lsm.analysis import mean_and_error  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
+from lsm.history import History  # noqa: E402
 from lsm.tables import memory_of, number, read, update_table, write_table  # noqa: E402
 from publish import compressed, publish  # noqa: E402
 from values import Value  # noqa: E402
@@ -255,8 +256,8 @@ SMALLEST_RUPTURE = 1e-3
 TESTED = FOLDER / "ruptures_tests.csv"
 
 
-class History(NamedTuple):
-    """Slip and work of each place in consecutive intervals from LOADING on."""
+class Intervals(NamedTuple):
+    """Slip and work of each place in the intervals of a run from LOADING on that have records of their own."""
     header: dict
     interval: np.ndarray  # of each record
     slip: np.ndarray
@@ -265,19 +266,15 @@ class History(NamedTuple):
     count: int  # of intervals
 
 
-def history_of(folder):
-    stored = lsm.read_slip(folder / "fault.slip.bin")
-    dt, steps = float(stored.header["dt"]), int(stored.header["interval"])
-    time = stored["step_begin"] * dt + float(stored.header["time0"]) - float(stored.header["step0"]) * dt
-    stored = stored[(stored["step_end"] > stored["step_begin"]) & (time >= LOADING)]
+def intervals_of(folder):
+    history = History(folder / "fault.slip.bin")
+    history = history.kept((history.end > history.begin) & (history.begin >= LOADING))
+    begin, end = (np.asarray((history.records[key] - history.records["step_begin"][0]) // int(history["interval"]))
+                  for key in ("step_begin", "step_end"))
     # Records of several intervals, in which no place moves as fast as five plate velocities, hold no rupture.
-    count = int((stored["step_end"][-1] - stored["step_begin"][0]) // steps)
-    interval = np.asarray((stored["step_begin"] - stored["step_begin"][0]) // steps)
-    one = np.asarray(stored["step_end"] - stored["step_begin"]) == steps
-    return History(
-        lsm.read_catalogue(folder / "fault.catalogue.csv").header, interval[one],
-        np.asarray(stored["slip"])[one],
-        np.asarray(stored["work"])[one], steps * dt, count)
+    one = end - begin == 1
+    slip, work = (np.asarray(history.records[key])[one] for key in ("slip", "work"))
+    return Intervals(lsm.read_catalogue(folder / "fault.catalogue.csv").header, begin[one], slip, work, history.span, int(end[-1]))
 
 
 def ruptures_in(history, slipping=SLIPPING, merged=1):
@@ -313,7 +310,7 @@ def ruptures_in(history, slipping=SLIPPING, merged=1):
 def find_ruptures(*folders):
     tests = []
     for folder in folders:
-        history = history_of(folder)
+        history = intervals_of(folder)
         name, length, time = folder.name, float(history.header["length"]), history.count * history.span / 1000
         for slipping, merged in TESTS if length == 120 else ((SLIPPING, 1),):
             begin, end, work, slip, start, places = ruptures_in(history, slipping, merged)
@@ -347,7 +344,7 @@ NUMBERS = (("exponent", f"exponent_{RANGE}", f"error_{RANGE}"), ("gamma", "gamma
 
 def variant_of(postproc, folder):
     """A row of variants.csv: rates with errors from ten parts of the time, exponent, gamma and B of a run."""
-    path, history = folder / "fault.catalogue.csv", history_of(folder)
+    path, history = folder / "fault.catalogue.csv", intervals_of(folder)
     fault, number = folder.name.split("_")[0], {key: float(history.header[key]) for key in ("dt", "width", "length", "seed")}
     run = Run(path, fault, int(number["length"]), int(number["seed"]), loaded(path))
     begin, _, work, *_ = ruptures_in(history)

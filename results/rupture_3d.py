@@ -21,12 +21,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
-import lsm  # noqa: E402
-from lsm.analysis import numbers_in  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
+from lsm.history import History  # noqa: E402
 from lsm.program import run  # noqa: E402
 from lsm.tables import write_json, write_table  # noqa: E402
-from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, same_place, summary, tick  # noqa: E402
+from rupture_benchmark import ARRIVED, arrival, curves_in, misfit, same_place, scale_of, summary, tick  # noqa: E402
 
 COLUMNS = ["x", "z", "t", "slip", "slip_rate", "slip_dip"]
 SHOWN = [(0, -7500), (4500, -7500), (-12000, -7500), (4500, 0), (12000, 0)]  # those of TPV5 that differ most from each other
@@ -44,23 +43,14 @@ class Plane:
     """Slip of a plane: strike, dip: places of its bins; time: middles of the records, to which slip and mean slip rate belong."""
 
     def __init__(self, path):
-        records = lsm.read_slip(path)
-        header = records.header
-        if records["slip"].ndim != 4:
+        history = History(path)
+        if not history.plane:
             raise ValueError(f"{path}: the slip history of a line, expected that of a plane")
-        records = records[records["step_end"] > records["step_begin"]]  # the first is the state at the beginning
-        if not len(records):
+        history = history.kept(history.end > history.begin)  # the first is the state at the beginning
+        if not len(history.records):
             raise ValueError(f"{path}: one record, expected a slip history")
-        head = numbers_in(header, "dt", "step0", "time0", "x0", "bin", "z0", "bin_dip")
-        scale = float(header.get("scale", 1))
-        if not scale > 0:
-            raise ValueError(f"{path}: parameter 'scale' is {scale:g}, expected a positive number")
-        begin, end = (head["time0"] + (records[key] - head["step0"]) * head["dt"] for key in ("step_begin", "step_end"))
-        self.path, self.spacing, self.time = path, head["bin"], 0.5 * (begin + end)
-        self.more, self.duration = records["slip"], end - begin
-        self.scale = scale
-        self.strike, self.dip = (head[low] + (np.arange(count) + 0.5) * head[width]
-                                 for low, width, count in (("x0", "bin", self.more.shape[1]), ("z0", "bin_dip", self.more.shape[2])))
+        self.path, self.spacing, self.strike, self.dip, self.time = path, history.bin, history.x, history.z, history.middle
+        self.more, self.duration, self.scale = history.records["slip"], history.end - history.begin, scale_of(history)
 
     def curve(self, more):
         """Times, slips and mean slip rates from the slips of the records of a place."""

@@ -17,9 +17,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
-import lsm  # noqa: E402
-from lsm.analysis import numbers_in  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
+from lsm.history import History  # noqa: E402
 from lsm.program import run  # noqa: E402
 from lsm.tables import write_table  # noqa: E402
 
@@ -61,21 +60,22 @@ def references_of(path):
     return found
 
 
+def scale_of(history):
+    scale = history["scale"] if "scale" in history.header else 1.0
+    if not scale > 0:
+        raise ValueError(f"{history.path}: parameter 'scale' is {scale:g}, expected a positive number")
+    return scale
+
+
 def history_of(path):
     """Distance of the places and curves of a slip history; slip and mean slip rate belong to the middle of each record. \\raises ValueError"""
-    records = lsm.read_slip(path)
-    if len(records) < 2:
+    history = History(path)
+    if len(history.records) < 2:
         raise ValueError(f"{path}: one record, expected a slip history")
-    head = numbers_in(records.header, "dt", "step0", "time0", "x0", "bin")
-    scale = float(records.header.get("scale", 1))
-    if not scale > 0:
-        raise ValueError(f"{path}: parameter 'scale' is {scale:g}, expected a positive number")
-    begin, end = (head["time0"] + (records[key] - head["step0"]) * head["dt"] for key in ("step_begin", "step_end"))
-    more = records["slip"].astype(float) / scale
+    more, time = history.records["slip"].astype(float) / scale_of(history), (history.end - history.begin)[:, None]
     slip = np.cumsum(more, axis=0) - 0.5 * more
-    rate = np.divide(more, (end - begin)[:, None], out=np.zeros_like(more), where=(end > begin)[:, None])
-    places = head["x0"] + (np.arange(more.shape[1]) + 0.5) * head["bin"]
-    return head["bin"], {x: np.array([0.5 * (begin + end), slip[:, n], rate[:, n]]) for n, x in enumerate(places)}
+    rate = np.divide(more, time, out=np.zeros_like(more), where=time > 0)
+    return history.bin, {x: np.array([history.middle, slip[:, n], rate[:, n]]) for n, x in enumerate(history.x)}
 
 
 def same_place(a, b):

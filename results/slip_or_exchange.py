@@ -18,17 +18,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 import lsm  # noqa: E402
 from lsm import LOADING  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
-from lsm.slip import SLIP, History, judged, recorded  # noqa: E402
+from lsm.slip import SLIP, Friction, judged, recorded  # noqa: E402
 from lsm.tables import text_of  # noqa: E402
 
 
 def events(run, output, begin=LOADING):
     begin = float(begin)
-    catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
+    catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), Friction(f"{run}.slip.bin")
     kept = recorded(catalogue, history, begin)
     begins, ends = kept["step_start"].astype(float), kept["step_end"].astype(float)
     columns = {} if "friction_work" in kept.dtype.names else {"friction_work": history.worked(begins, ends), "friction_total": history.done(ends)}
-    columns["chance"] = judged(history, kept, (begin - history.offset) / history.dt)[1]
+    columns["chance"] = judged(history, kept, history.step(begin))[1]
     with lzma.open(output, "wt") as file:
         file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
         file.write(f"# selected = t_start >= {begin:g}, size >= 1e-4; chance: results/slip_or_exchange.py\n")
@@ -53,15 +53,14 @@ def with_phases(series, rng):
 
 def stretch(run, begin, end):
     """PE, kinetic energy, frictional work a time, and events >= 1e-3 (begin, end, whether slip) of a stretch of a run."""
-    series, history, catalogue = lsm.read_series(f"{run}.pe.bin"), History(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
+    series, history, catalogue = lsm.read_series(f"{run}.pe.bin"), Friction(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
     shown = series[(series["time"] >= begin) & (series["time"] <= end)]
     shown = shown[::max(1, len(shown) // 3000)]
     beside = np.loadtxt(f"{run}.energy.txt")
-    time = beside[:, 0] * history.dt + history.offset
+    time = history.time(beside[:, 0])
     seen = (time >= begin) & (time <= end)
     at = np.arange(begin, end)
-    step = (at - history.offset) / history.dt
-    lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
+    lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(history.step(at), history.step(at + 1)))
     kept = recorded(catalogue, history, -np.inf)
     slip = judged(history, kept, history.steps[0])[0] > SLIP
     spans = [(max(a, begin), min(z, end), s) for a, z, s, size in zip(kept["t_start"], kept["t_end"], slip, kept["size"])

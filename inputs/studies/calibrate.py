@@ -131,7 +131,7 @@ def loaded(time, pe):
 def numbers_of_point(postproc, folder, memory, work):
     import numpy as np
     import lsm
-    from lsm.slip import History, judged, recorded
+    from lsm.slip import Friction, judged, recorded
     from lsm.statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
@@ -151,11 +151,11 @@ def numbers_of_point(postproc, folder, memory, work):
         values = {}
     numbers |= {key: told(values, name) for key, name in WORDED.items()}
     numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
-    events, history = lsm.read_catalogue(picked), History(folder / "fault.slip.bin")
+    events, history = lsm.read_catalogue(picked), Friction(folder / "fault.slip.bin")
     events = recorded(events, history, begin)
     size, of = events["size"], (events["size"] >= 1e-3) & (events["size"] < 0.1)
     if np.sum(of) >= 5:
-        excess, _ = judged(history, events, (begin - history.offset) / history.dt)
+        excess, _ = judged(history, events, history.step(begin))
         numbers["excess"] = f"{np.sum((excess * size)[of]) / np.sum(size[of]):.4g}"
     return numbers
 

@@ -10,7 +10,7 @@ import numpy as np
 
 import lsm
 
-__all__ = ["distance", "distance_of_counts", "events_of", "mean_and_error", "numbers_in", "numbers_of", "over_mean"]
+__all__ = ["distance", "distance_of_counts", "events_of", "mean_and_error", "numbers_of", "over_mean"]
 
 
 def numbers_of(postproc, command, *words):
@@ -28,14 +28,6 @@ def events_of(path, begin=-math.inf, end=math.inf):
     events = lsm.read_catalogue(path)
     events = events[np.argsort(events["t_start"], kind="stable")]
     return events[(events["t_start"] >= begin) & (events["t_start"] < end)]
-
-
-def numbers_in(header, *keys):
-    """Parameters of a header as numbers, by name. \\raises ValueError if one is missing"""
-    missing = [key for key in keys if key not in header]
-    if missing:
-        raise ValueError(f"no {missing[0]} in the header, expected one")
-    return {key: float(header[key]) for key in keys}
 
 
 def over_mean(values):

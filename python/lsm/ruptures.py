@@ -3,13 +3,12 @@
 
     python3 -m lsm.ruptures fault.ruptures.csv --history fault.slip.bin -o BASE
 
-Of all catalogues: ruptures by length (BASE-lengths) and moment (BASE-moments), moment against length (BASE-length) with a fit for each
-label, so that runs of one model share a label, drop of the total
-PE, which the paper expects to be proportional, against moment (BASE-pe), and stress drop against moment (BASE-stress). With the slip
-history of the first catalogue's run: the slip velocity in space and time with the ruptures outlined (BASE-spacetime), lines of the
-slip along the fault (BASE-lines), and the rupture of the largest moment in detail (BASE-event); of a plane, maps of that rupture, of
-its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip velocity (BASE-rate); of both its moment rate
-(BASE-momentrate). Moment rates of all ruptures, and their energies: lsm.sources. Each is a table, BASE-NAME.csv, and its picture, .png and .svg. Quantities are in model units.
+Of all catalogues: ruptures by length (BASE-lengths) and moment (BASE-moments), and moment against length (BASE-length) with a fit for each
+label, so that runs of one model share a label. With the slip history of the first catalogue's run: the slip velocity in space and time
+with the ruptures outlined (BASE-spacetime), and the rupture of the largest moment in detail (BASE-event); of a plane, maps of that
+rupture, of its slip (BASE-slip), the time at which it came (BASE-time) and its largest slip velocity (BASE-rate); of both its moment
+rate (BASE-momentrate). Moment rates of all ruptures, and their energies: lsm.sources. Each is a table, BASE-NAME.csv, and its picture,
+.png and .svg. Quantities are in model units.
 """
 import argparse
 import math
@@ -19,11 +18,11 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
+from lsm.history import History
 from lsm.program import add_time_window, run
 from lsm.tables import write_json
 
 COLUMNS = ["slip_moment", "rupture_length", "x_hypocentre", "x_begin", "stress_drop"]
-MOST, LARGEST = 20000, 1000  # points of a catalogue in scatter plots: beyond, the largest ones and every n-th
 FEWEST = 3  # ruptures for a fit
 FEWEST_BINS = 5  # of a rupture in fits of moment against length: shorter ones lie off the line of the others
 PARTS = 10  # of the time of each catalogue, of which one at a time is left out for the errors of fits
@@ -54,6 +53,10 @@ class Catalogue(NamedTuple):
     @property
     def plane(self):
         return "slip_bin_dip" in self.events.header
+
+    def whole(self, events):
+        """Whether each slipped along the whole fault."""
+        return np.asarray(events["rupture_length"] > self.length * (1 - 1e-9))
 
 
 def load(path, label=None, begin=-math.inf, end=math.inf):
@@ -132,25 +135,20 @@ def density_figure(catalogues, ending, column):
                   f"{script}row(k) = $1 == k && $6 > 0 ? $5 : NaN\nplot {', '.join(curves)}", (900, 530 + 23 * len(catalogues)))
 
 
-# ---- relations
+# ---- moment against length
 
 
 class Fit(NamedTuple):
-    """Least-squares line through logarithms, y = 10^intercept x^slope; scatters in decades; ratio: if y were proportional to x. error: of the
-    slope, by a jackknife over parts of the data, or as if these were independent"""
+    """Least-squares line through logarithms, y = 10^intercept x^slope; scatter in decades. error: of the slope, by a jackknife over parts of
+    the data, or as if these were independent"""
     n: int
     slope: float
     error: float
     intercept: float
     scatter: float
-    ratio: float
-    ratio_scatter: float
 
     def text(self, what):
         return f"{what}: slope {self.slope:.4g} ± {self.error:.2g}, scatter {self.scatter:.2g} decades (n = {self.n})"
-
-    def ratio_text(self, what):
-        return f"{self.text(what)}; if proportional: ratio {self.ratio:.3g}, scatter {self.ratio_scatter:.2g} decades"
 
     def line(self, colour, what):
         title = quote(f"{what}: slope {self.slope:.3g} ± {self.error:.1g}")
@@ -164,218 +162,95 @@ def fit(x, y, part=None):
     spread = np.sum((x - np.mean(x))**2) if n else 0.0
     if n < FEWEST or not spread > 1e-12 * n:
         raise ValueError(f"{n} ruptures for a fit, expected at least {FEWEST} of different sizes")
-    slope = np.sum((x - np.mean(x)) * (y - np.mean(y))) / spread
-    intercept = np.mean(y) - slope * np.mean(x)
+    slope, intercept = np.polyfit(x, y, 1)
     rest = np.sum((y - intercept - slope * x)**2)
-    error = math.sqrt(rest / (n - 2) / spread)
-    parts = np.unique(part, return_inverse=True)[1] if part is not None else []
-    if len(parts) and parts.max() >= 2:
-        dx, dy = x - np.mean(x), y - np.mean(y)
-        count, sx, sy, sxx, sxy = (np.sum(one) - np.bincount(parts, one) for one in (np.ones(n), dx, dy, dx * dx, dx * dy))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            others = (sxy - sx * sy / count) / (sxx - sx * sx / count)
-        error = math.sqrt(np.var(others) * (len(others) - 1)) if np.isfinite(others).all() else math.nan
-    return Fit(n, slope, error, intercept, math.sqrt(rest / n), 10.0**np.mean(y - x), np.std(y - x))
-
-
-def alone(events):
-    """For each rupture, whether all others that overlap with it in time have less than a tenth of its moment together, as a drop of the
-    total PE includes all of them."""
-
-    def moment_until(times, at, side):
-        order = np.argsort(times, kind="stable")
-        return np.concatenate([[0.0], np.cumsum(size[order])])[np.searchsorted(times[order], at, side)]
-
-    size = np.abs(events["slip_moment"])
-    others = moment_until(events["t_start"], events["t_end"], "left") - moment_until(events["t_end"], events["t_start"], "right") - size
-    return others < 0.1 * size
-
-
-def scatter(catalogues, columns):
-    """Rows of the ruptures of positive moment, with the values of columns(events, catalogue), and elements that plot columns 4 and 5. Of very
-    many ruptures, every n-th and the largest are shown."""
-    rows, curves, keys, layers = [], [], [], 5 if len(catalogues) > 1 else 1
-    for number, one in enumerate(catalogues, 1):
-        events = one.events[one.events["slip_moment"] > 0]
-        every = max(1, -(-len(one.events) // MOST))
-        shown = np.arange(len(events)) % every == 0
-        if every > 1:
-            shown |= events["slip_moment"] >= np.sort(events["slip_moment"])[-LARGEST:][0]
-        values = [np.asarray(column)[shown] for column in columns(events, one)]
-        rows += [[number, one.label, *row] for row in zip(events["event_id"][shown], *values)]
-        some = f", shown: the largest {LARGEST} and one of {every}" * (every > 1)
-        keys.append(f"keyentry with points lt {number} title {quote(f'{one.label} ({len(one.events)} ruptures{some})')}")
-    # A fifth of each catalogue at a time, so that none hides the others.
-    curves += [f"table every {layers}::{layer} using ($1 == {k} ? $4 : NaN):5 with points lt {k} ps 0.6*point notitle"
-               for layer in range(layers) for k in range(1, len(catalogues) + 1)]  # yapf: disable
-    return rows, curves + keys
+    error, parts = math.sqrt(rest / (n - 2) / spread), [] if part is None else np.unique(part)
+    if len(parts) > 2:
+        others = [np.polyfit(x[part != one], y[part != one], 1)[0] for one in parts]
+        error = math.sqrt(np.var(others) * (len(others) - 1))
+    return Fit(n, slope, error, intercept, math.sqrt(rest / n))
 
 
 class Relation(NamedTuple):
-    """The ruptures of positive moment of all catalogues with one label."""
+    """The ruptures of positive moment of all catalogues with one label; whole: those of the whole fault. fit: or why there is none"""
     label: str
-    events: lsm.Table
-    part: np.ndarray  # of the time of each catalogue
-    isolated: np.ndarray
-    whole: np.ndarray  # the whole fault slipped
-    smallest: float  # length in the fit of the moment
-
-    @property
-    def drop(self):
-        return self.events["pe_start"] - self.events["pe_end"]
-
-    def moment_by_length(self):
-        used = ~self.whole & (self.events["rupture_length"] >= self.smallest * (1 - 1e-9))
-        return fit(self.events["rupture_length"][used], self.events["slip_moment"][used], self.part[used])
-
-    def drop_by_moment(self, isolated):
-        used = (self.drop > 0) & (self.isolated | (not isolated))
-        return fit(self.events["slip_moment"][used], self.drop[used], self.part[used])
+    catalogues: list
+    length: np.ndarray
+    moment: np.ndarray
+    whole: np.ndarray
+    smallest: float  # length in the fit
+    fit: Fit | str
 
 
 def relations_of(catalogues, smallest=None):
     """A Relation for each label. smallest: length, or FEWEST_BINS bins of each catalogue"""
-    found = []
     for label in dict.fromkeys(one.label for one in catalogues):
         some, columns = [one for one in catalogues if one.label == label], []
         for number, one in enumerate(some):
-            start, kept = one.events["t_start"], one.events["slip_moment"] > 0
+            events = one.events[one.events["slip_moment"] > 0]
+            start = events["t_start"]
             begin, lasting = start.min(initial=math.inf), np.ptp(start) if len(start) else 0.0
             part = PARTS * number + np.minimum(PARTS - 1, (start - begin) / (lasting or 1.0) * PARTS).astype(int)
-            whole = one.events["rupture_length"] > one.length * (1 - 1e-9)
-            columns.append(
-                [np.asarray(column)[kept] for column in (one.events[COLUMNS[:2] + ["pe_start", "pe_end"]], part, alone(one.events), whole)])
+            columns.append((events["rupture_length"], events["slip_moment"], one.whole(events), part))
+        length, moment, whole, part = (np.concatenate(column) for column in zip(*columns))
         least = max(FEWEST_BINS * one.number("slip_bin", 1.0) for one in some) if smallest is None else smallest
-        found.append(Relation(label, *(np.concatenate(column) for column in zip(*columns)), least))
-    return found
+        used = ~whole & (length >= least * (1 - 1e-9))
+        try:
+            found = fit(length[used], moment[used], part[used])
+        except ValueError as error:
+            found = str(error)
+        yield Relation(label, some, length, moment, whole, least, found)
 
 
-def fit_or_why(make, *words):
-    try:
-        return make(*words)
-    except ValueError as error:
-        return str(error)
-
-
-def as_json(relation, catalogues):
-    """The numbers of a label, a dict: of all its ruptures, and of the fits, null with `why` where there is none."""
-    some = [one for one in catalogues if one.label == relation.label]
+def as_json(relation):
+    """The numbers of a label, a dict: of all its ruptures, and of the fit, null with `why` where there is none."""
+    some = relation.catalogues
     events, unit = np.concatenate([one.events["slip_moment"] for one in some]), sum(time_of(one) * one.length for one in some)
     row = dict(label=relation.label, catalogues=len(some), ruptures=len(events), rate=len(events) / unit if unit > 0 else math.nan,
                moment=events.sum(), moment_rate=events.sum() / unit if unit > 0 else math.nan, largest_moment=events.max(initial=0.0),
                longest=max(one.events["rupture_length"].max(initial=0.0) for one in some), smallest_length=relation.smallest)
-    for name, words in (("moment_by_length", (relation.moment_by_length,)), ("drop_by_moment", (relation.drop_by_moment, False)),
-                        ("drop_by_moment_isolated", (relation.drop_by_moment, True))):  # yapf: disable
-        one = fit_or_why(*words)
-        row[name] = dict.fromkeys(Fit._fields) | ({"why": one} if isinstance(one, str) else one._asdict())
-    return row
+    found = {"why": relation.fit} if isinstance(relation.fit, str) else relation.fit._asdict()
+    return row | {"moment_by_length": dict.fromkeys(Fit._fields) | found}
 
 
-def relations(catalogues, smallest=None):
-    """The figures of moment, length, drop of PE and stress drop. \\raises ValueError if there are too few ruptures"""
-    events = [one.events[one.events["slip_moment"] > 0] for one in catalogues]
-    if not sum(map(len, events)):
-        raise ValueError("nothing to draw, no rupture of positive moment")
-    labels = relations_of(catalogues, smallest)
+def length_figure(catalogues, smallest=None):
+    """\\raises ValueError if there are too few ruptures"""
+    labels, rows = list(relations_of(catalogues, smallest)), []
     parts = sum(int((~one.whole).sum()) for one in labels)
     if parts < FEWEST:
         raise ValueError(f"{parts} ruptures for a fit, expected at least {FEWEST} of different sizes")
-    moment, length, drop = (np.concatenate(column)
-                            for column in zip(*((one.events["slip_moment"], one.events["rupture_length"], one.drop) for one in labels)))
-    fell = drop > 0
-    if not fell.any():
-        raise ValueError("nothing to draw, no rupture of positive moment during which PE fell")
-
-    def fits(make, what, more=""):
-        """Lines of the fits of all labels, what they are or why there is none, and the fits."""
-        found, several = [(one.label, fit_or_why(make, one)) for one in labels], len(labels) > 1
-        named = [(number, f"{label}, {what}" if several else what, one) for number, (label, one) in enumerate(found)]
-        colours = ["#000000", "#777777", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
-        lines = [one.line(colours[number % len(colours)], text) for number, text, one in named if not isinstance(one, str)]
-        return lines, [f"{text}: {one}" if isinstance(one, str) else getattr(one, more + "text")(text) for _, text, one in named], [
-            one for _, one in found if not isinstance(one, str)]  # yapf: disable
-
-    lines, said, found = fits(Relation.moment_by_length, "fit, whole fault and short ones excluded")
-    size = (900, 530 + 23 * (len(catalogues) + 1 + len(lines)))
-    rows, curves = scatter(catalogues, lambda e, one: (e["rupture_length"], e["slip_moment"], (e["rupture_length"] > one.length *
-                                                                                               (1 - 1e-9)).astype(int)))
+    for number, one in enumerate(catalogues, 1):
+        events = one.events[one.events["slip_moment"] > 0]
+        rows += [[number, one.label, *row] for row in zip(*(events[key] for key in ("event_id", "rupture_length", "slip_moment")), one.whole(events).astype(int))]  # yapf: disable
+    curves = [f"table using ($1 == {k} ? $4 : NaN):5 with points lt {k} ps 0.6*point title {quote(f'{one.label} ({len(one.events)} ruptures)')}"
+              for k, one in enumerate(catalogues, 1)]  # yapf: disable
+    colours, what = ["#000000", "#777777", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00",
+                     "#56B4E9"], "fit, whole fault and short ones excluded"
+    named = [(f"{one.label}, {what}" if len(labels) > 1 else what, one.fit) for one in labels]
+    lines = [one.line(colours[n % len(colours)], text) for n, (text, one) in enumerate(named) if not isinstance(one, str)]
     curves += lines + [f"{10**(one.intercept + one.slope - 2):.15g} * x**2 with lines lc rgb '#777777' dt (4,4) title 'slope 2: constant stress drop'"
-                       for one in found[:1]]  # yapf: disable
-    yield Figure("-length", ["slip moment (shear modulus x slip x length) against length; whole_fault: 1 where the whole fault slipped; errors: "
-                             f"jackknife over {PARTS} parts of the time; fits from length " + ", ".join(f"{one.smallest:.4g}" for one in labels),
-                             *said], "catalogue,label,event_id,length,moment,whole_fault", rows,
-                 KEY + axis("x", LENGTH, length.min(), length.max(), True) + axis("y", MOMENT, moment.min(), moment.max(), True)
-                 + f"plot {', '.join(curves)}", size)  # yapf: disable
-
-    rows, curves = scatter(
-        catalogues, lambda e, one: (e["slip_moment"], e["pe_start"] - e["pe_end"], alone(one.events)[one.events["slip_moment"] > 0].astype(int)))
-    lines, said, found = fits(lambda one: one.drop_by_moment(False), "all", "ratio_")
-    curves += ["table using ($6 == 1 && $5 > 0 ? $4 : NaN):5 with points pt 6 ps 1.5*point lc rgb '#000000' title 'isolated in time'", *lines]
-    more, saying, isolated = fits(lambda one: one.drop_by_moment(True), "isolated in time", "ratio_")
-    curves, said = curves + more, said + saying
-    curves += [f"{one.ratio:.15g} * x with lines lc rgb '#D55E00' dt (6,4) title 'proportional: {one.ratio:.2g} x moment'"
-               for one in (isolated or found)[:1]]  # yapf: disable
-    yield Figure("-pe", ["drop of the total PE from beginning to end against slip moment; alone: 1 if the others at the same time have less than a "
-                         "tenth of its moment", f"PE rose during {(~fell).sum()} of {len(fell)} ruptures, which are not drawn",
-                         *(f"fit, {one}" for one in said)],
-                 "catalogue,label,event_id,moment,pe_drop,alone", rows,
-                 KEY + axis("x", MOMENT, moment[fell].min(), moment[fell].max(), True)
-                 + axis("y", "Drop of the total PE (model units)", drop[fell].min(), drop[fell].max(), True) + f"plot {', '.join(curves)}", size)  # yapf: disable
-
-    rows, curves = scatter(catalogues, lambda e, one: (e["slip_moment"], e["stress_drop"]))
-    rows = [[*row, math.nan, math.nan] for row in rows]
-    for number, (one, e) in enumerate(zip(catalogues, events), 1):
-        half = np.floor(2 * np.log10(e["slip_moment"]))
-        for bin in np.unique(half):
-            stress = e["stress_drop"][half == bin]
-            if len(stress) >= FEWEST:
-                rows.append([number, one.label, "", 10**(0.5 * (bin + 0.5)), math.nan, np.mean(stress), np.std(stress) / math.sqrt(len(stress) - 1)])
-        mine = f"table using ($1 == {number} && $6 == $6 ? $4 : NaN)"
-        curves += [f"{mine}:6 with lines lt 8 lw 1.6 {'' if number > 1 else 'title ' + quote('means of half decades')}" + " notitle" * (number > 1),
-                   f"{mine}:($6-$7):(0):(2*$7) with vectors nohead lt 8 lw 1.2 notitle"]  # yapf: disable
-    drops = np.concatenate([[0.0]] + [e["stress_drop"] for e in events])
-    room = 0.05 * np.ptp(drops)
-    yield Figure("-stress", ["mean stress drop against slip moment. Rows without event_id: means over two bins of the moment per decade, with their "
-                             "standard errors"], "catalogue,label,event_id,moment,stress_drop,mean,error", rows,
-                 KEY + axis("x", MOMENT, moment.min(), moment.max(), True)
-                 + axis("y", "Mean stress drop (model units)", drops.min() - room, drops.max() + room)
-                 + f"plot 0 with lines lt 8 lw 0.6 notitle, {', '.join(curves)}", size)  # yapf: disable
+                       for one in [one for _, one in named if not isinstance(one, str)][:1]]  # yapf: disable
+    length, moment = (np.concatenate([getattr(one, key) for one in labels]) for key in ("length", "moment"))
+    return Figure("-length", ["slip moment (shear modulus x slip x length) against length; whole_fault: 1 where the whole fault slipped; errors: "
+                              f"jackknife over {PARTS} parts of the time; fits from length " + ", ".join(f"{one.smallest:.4g}" for one in labels),
+                              *(f"{text}: {one}" if isinstance(one, str) else one.text(text) for text, one in named)],
+                  "catalogue,label,event_id,length,moment,whole_fault", rows,
+                  KEY + axis("x", LENGTH, length.min(), length.max(), True) + axis("y", MOMENT, moment.min(), moment.max(), True)
+                  + f"plot {', '.join(curves)}", (900, 530 + 23 * (len(catalogues) + 1 + len(lines))))  # yapf: disable
 
 
 # ---- the slip history
 
 
-class History:
-    """A slip history: places and widths of bins, times of records."""
-
-    def __init__(self, path):
-        self.path, self.records = path, lsm.read_slip(path)
-        head = self.records.header
-        need = ["x0", "bin", "step0", "time0", "dt", "interval", "slip_velocity", "driving", "modulus"]
-        try:
-            self.head = {key: float(head[key]) for key in need + ["z0", "bin_dip"] * self.plane}
-        except (KeyError, ValueError) as error:
-            raise ValueError(f"{path}: parameter {error}, expected a number") from None
-        self.x0, self.bin, self.bins = self.head["x0"], self.head["bin"], self.records["slip"].shape[1]
-        self.length, self.duration = self.bins * self.bin, self.head["interval"] * self.head["dt"]
-        self.begin, self.end = self.time(self.records["step_begin"]), self.time(self.records["step_end"])
-
-    @property
-    def plane(self):
-        return self.records["slip"].ndim == 4
-
-    def time(self, step):
-        return self.head["time0"] + (step - self.head["step0"]) * self.head["dt"]
-
-    def check(self, one):
-        """\\raises ValueError unless it is that of the run of a catalogue"""
-        if self.plane != one.plane:
-            kinds = ("on a plane", "line") if one.plane else ("along a line", "plane")
-            raise ValueError(f"{one.path}: ruptures {kinds[0]}, expected its slip history, found that of a {kinds[1]}")
-        mine, theirs = self.records.header, one.events.header
-        for key in ("seed", "length", "dt", "velocity"):
-            if key in mine and key in theirs and mine[key] != theirs[key]:
-                raise ValueError(f"{self.path}: {key} = {mine[key]}, but {theirs[key]} in {one.path}: expected files of the same run")
+def check(history, one):
+    """\\raises ValueError unless it is that of the run of a catalogue"""
+    if history.plane != one.plane:
+        kinds = ("on a plane", "line") if one.plane else ("along a line", "plane")
+        raise ValueError(f"{one.path}: ruptures {kinds[0]}, expected its slip history, found that of a {kinds[1]}")
+    mine, theirs = history.header, one.events.header
+    for key in ("seed", "length", "dt", "velocity"):
+        if key in mine and key in theirs and mine[key] != theirs[key]:
+            raise ValueError(f"{history.path}: {key} = {mine[key]}, but {theirs[key]} in {one.path}: expected files of the same run")
 
 
 def largest(one):
@@ -386,14 +261,14 @@ def largest(one):
 
 def image(history, kept, begin, end, most_rows):
     """Largest slip velocity over the driving velocity in each pixel between two times: rows of time x columns of places."""
-    rows = max(1, min(most_rows, math.ceil((end - begin) / history.duration - 1e-9)))
-    height, columns = (end - begin) / rows, min(history.bins, MOST_COLUMNS)
-    values, first = np.zeros((rows, columns)), np.arange(columns) * history.bins // columns
+    rows = max(1, min(most_rows, math.ceil((end - begin) / history.span - 1e-9)))
+    height, columns = (end - begin) / rows, min(len(history.x), MOST_COLUMNS)
+    values, first = np.zeros((rows, columns)), np.arange(columns) * len(history.x) // columns
     for k in kept[history.end[kept] > history.begin[kept]]:
         low = max(0, math.floor((history.begin[k] - begin) / height + 1e-6))
         high = min(rows, math.ceil((history.end[k] - begin) / height - 1e-6))
         speed = np.maximum.reduceat(np.abs(history.records["slip"][k].astype(float)), first) / (history.end[k] - history.begin[k])
-        values[low:high] = np.maximum(values[low:high], speed / history.head["driving"])
+        values[low:high] = np.maximum(values[low:high], speed / history["driving"])
     return values, height, history.length / columns
 
 
@@ -403,18 +278,22 @@ def pixels(values, x0, width, t0, height):
     return [[x0 + (c + 0.5) * width, t0 + (r + 0.5) * height, shade] for r, row in enumerate(shades.tolist()) for c, shade in enumerate(row)]
 
 
+def places_of(history, event):
+    """Numbers of the bins of a rupture of a line, from its first one on."""
+    bins = len(history.x)
+    return (round((event["x_begin"] - history["x0"]) / history.bin) + np.arange(min(bins, round(event["rupture_length"] / history.bin)))) % bins
+
+
 def outline(history, event, shift=0):
     """Closed lines of (place in bins from the left end, time) around where and when a rupture slipped: of each bin from its first to
     its last interval. shift: bins by which the picture is shifted along the fault"""
     slip = history.records["slip"]
-    inside = (history.records["step_begin"] >= event["step_start"]) & (history.records["step_end"] <= event["step_end"])
-    inside &= history.end > history.begin
-    first = round((event["x_begin"] - history.x0) / history.bin)
-    places = (first + np.arange(min(history.bins, round(event["rupture_length"] / history.bin)))) % history.bins
-    slides = np.abs(slip[inside][:, places]) > history.head["slip_velocity"] * history.duration
+    inside = history.of(event) & (history.end > history.begin)
+    places = places_of(history, event)
+    slides = np.abs(slip[inside][:, places]) > history["slip_velocity"] * history.span
     begin, end = history.begin[inside], history.end[inside]
     parts, span = [], None
-    for place, when in zip((places - shift) % history.bins, slides.T):
+    for place, when in zip((places - shift) % len(history.x), slides.T):
         at = np.flatnonzero(when)
         span = (begin[at[0]], end[at[-1]]) if len(at) else span  # a bin in a gap has the times of the one before
         if span is None:
@@ -435,7 +314,7 @@ def line_figures(history, one, begin, end, speeds):
         raise ValueError(f"{history.path}: nothing in the window of time")
     begin, end = max(begin, history.begin[kept[0]]), min(end, history.end[kept[-1]])
     inside = one._replace(events=one.events[(one.events["t_start"] >= begin) & (one.events["t_end"] <= end)])
-    event, x0, bin = largest(inside), history.x0, history.bin
+    event, x0, bin = largest(inside), history["x0"], history.bin
     along = axis("x", PLACE, x0, x0 + history.length)
 
     order = np.argsort(-inside.events["slip_moment"], kind="stable")[:MOST_OUTLINES]
@@ -449,27 +328,6 @@ def line_figures(history, one, begin, end, speeds):
                  pixels(values, x0, width, begin, height),
                  "set datafile columnheaders\n" + VELOCITIES + along + axis("y", "Time (model units)", begin, end) + "set format y '%.7g'\nset key off\n"
                  "plot table using 1:2:3 with image, base.'-outlines.csv' using 2:3 with lines lc rgb '#0072B2' lw 0.8", (1000, 800))  # yapf: disable
-
-    slip = np.cumsum(history.records["slip"][kept].astype(float), axis=0)
-    least = history.head["slip_velocity"] * history.duration
-    locked = (end - begin) / 60
-    every, due, rows = {False: locked, True: locked / 10}, {False: begin, True: begin}, []
-    number = 0
-    for k, total in zip(kept, slip):
-        one_interval = history.records["step_end"][k] - history.records["step_begin"][k] == history.head["interval"]
-        slips = bool(one_interval and np.abs(history.records["slip"][k]).max() > least)
-        time = history.end[k]
-        if time < due[slips]:
-            continue
-        number += 1
-        rows += [[number, time, int(slips), x0 + (b + 0.5) * bin, value] for b, value in enumerate(total.tolist())] + [["NaN"] * 5]
-        due[slips] = time + every[True] if slips else due[False] + locked * (math.floor((time - due[False]) / locked) + 1)
-    top = max(1.02 * slip.max(), 0.0) or 1.0
-    yield Figure("-lines", [f"slip since time {begin:.8g}, a line every {locked:.4g} while locked, every {every[True]:.4g} while anything slips"],
-                 "line,time,in_event,x,slip", rows, KEY + along + axis("y", f"Slip since time {begin:.8g} (model units)", 0.0, top)
-                 + f"plot table using ($3 == 1 ? $4 : NaN):5 with lines lc rgb '#D55E00' lw 0.6 title 'every {every[True]:.4g} time units while "
-                 f"anything slips', table using ($3 == 0 ? $4 : NaN):5 with lines lc rgb '#0072B2' lw 1.2 title 'every {locked:.4g} time units while "
-                 "the fault is locked'", (1000, 640))  # yapf: disable
     yield from detail(history, event, speeds)
 
 
@@ -485,8 +343,8 @@ def momentrate_figure(event, what, columns):
 
 def detail(history, event, speeds):
     """One rupture: the slip velocity around its first place, the fronts of P- and S-waves from there, and its slip along the fault."""
-    bins, bin = history.bins, history.bin
-    shift = (math.floor((event["x_hypocentre"] - history.x0) / bin) - bins // 2) % bins  # the first place is in the middle
+    bins, bin = len(history.x), history.bin
+    shift = (math.floor((event["x_hypocentre"] - history["x0"]) / bin) - bins // 2) % bins  # the first place is in the middle
     x0, start = -(bins // 2 + 0.5) * bin, event["t_start"]
     room = 0.15 * (event["t_end"] - start)
     kept = np.flatnonzero((history.end >= start - room) & (history.begin <= event["t_end"] + room))
@@ -497,17 +355,16 @@ def detail(history, event, speeds):
     for number, speed in enumerate(speeds, 2):
         reach = min(0.5 * history.length, (end - start) * speed)
         rows += [[number, x, abs(x) / speed] for x in (-reach, 0.0, reach)] + [["NaN"] * 3]
-    inside = (history.records["step_begin"] >= event["step_start"]) & (history.records["step_end"] <= event["step_end"])
+    inside = history.of(event)
     slip = np.roll(history.records["slip"][inside].sum(axis=0, dtype=float), -shift)
     rows += [[4, x0 + (b + 0.5) * bin, value] for b, value in enumerate(slip.tolist())]
     yield Figure("-event-lines", ["curve 1: outline; 2: P-wave, 3: S-wave from the first place (x, time); 4: slip of the rupture (x, slip)"],
                  "curve,x,y", rows)
-    places = (round((event["x_begin"] - history.x0) / bin) + np.arange(min(bins, round(event["rupture_length"] / bin)))) % bins
-    moved = history.records["slip"][inside][:, places].astype(float)
-    moved[np.abs(moved) <= history.head["slip_velocity"] * history.duration] = 0.0
+    moved = history.records["slip"][inside][:, places_of(history, event)].astype(float)
+    moved[np.abs(moved) <= history["slip_velocity"] * history.span] = 0.0
     lasting = (history.end - history.begin)[inside]
-    yield momentrate_figure(event, "along the fault", [(0.5 * (history.begin + history.end)[inside] - start).tolist(),
-                                                       (history.head["modulus"] * bin * moved.sum(axis=1) / lasting).tolist()])  # yapf: disable
+    yield momentrate_figure(event, "along the fault", [(history.middle[inside] - start).tolist(),
+                                                       (history["modulus"] * bin * moved.sum(axis=1) / lasting).tolist()])  # yapf: disable
     values, height, width = image(history, kept, begin, end, 600)
     values = np.roll(values, -(shift * values.shape[1] // bins), axis=1)
     yield Figure(
@@ -543,21 +400,20 @@ class Map:
     does; rate: largest slip velocity; moment: (times, moment rates along strike and dip)."""
 
     def __init__(self, history, event, least):
-        records, head = history.records, history.head
-        mine = (records["step_begin"] >= event["step_start"]) & (records["step_end"] <= event["step_end"]) & (history.end > history.begin)
+        records, mine = history.records, history.of(event) & (history.end > history.begin)
         if not mine.any() or records["step_end"][mine][-1] != event["step_end"]:
             raise ValueError(f"{history.path}: does not have all of rupture {event['event_id']}, expected its slip until step {event['step_end']}")
         axes = []
-        for n, (begin, size, hypocentre) in enumerate((("x_begin", "rupture_length", "x_hypocentre"), ("z_begin", "rupture_width", "z_hypocentre"))):
-            low, width, bins = (head["x0"], head["bin"], records["slip"].shape[1]) if n == 0 else (head["z0"], head["bin_dip"],
-                                                                                                   records["slip"].shape[2])
+        for along, begin, size, hypocentre, key in ((history.x, "x_begin", "rupture_length", "x_hypocentre", "bin"),
+                                                    (history.z, "z_begin", "rupture_width", "z_hypocentre", "bin_dip")):
+            width, bins = history[key], len(along)
             places = event[begin] + (np.arange(min(bins, max(1, round(event[size] / width)))) + 0.5) * width
             first = event[hypocentre] + bins * width * (event[hypocentre] < event[begin])  # across the seam
-            axes.append((places, np.floor((places - low) / width + 1e-6).astype(int) % bins, first, width))
+            axes.append((places, np.rint((places - along[0]) / width).astype(int) % bins, first, width))
         (self.x, strike, self.x_first, self.width), (self.z, dip, self.z_first, self.height) = axes
         slip = records["slip"][mine][:, strike][:, :, dip].astype(float)
         duration = (history.end - history.begin)[mine]
-        middle = 0.5 * (history.begin + history.end)[mine] - event["t_start"]
+        middle = history.middle[mine] - event["t_start"]
         rates = np.hypot(slip[..., 0], slip[..., 1]) / duration[:, None, None]
         total = slip.sum(axis=0)
         self.slip, self.rate = np.hypot(total[..., 0], total[..., 1]), rates.max(axis=0)
@@ -567,32 +423,16 @@ class Map:
         fast = rates > least
         at = np.argmax(fast, axis=0)
         # Before it began the rupture slipped nowhere, in the middle of the interval before it.
-        padded, times = np.concatenate([np.zeros_like(rates[:1]), rates]), np.concatenate([[-0.5 * history.duration], middle])
+        padded, times = np.concatenate([np.zeros_like(rates[:1]), rates]), np.concatenate([[-0.5 * history.span], middle])
         before, now = (np.take_along_axis(padded, (at + k)[None], axis=0)[0] for k in (0, 1))
         with np.errstate(divide="ignore", invalid="ignore"):
             part = np.where(before < least, (least - before) / (now - before), 1.0)
         self.time = np.where(fast.any(axis=0), np.maximum(0.0, times[at] + part * (times[at + 1] - times[at])), math.nan)
-        unit = head["modulus"] * head["bin"] * head["bin_dip"] / duration
+        unit = history["modulus"] * self.width * self.height / duration
         self.moment = middle, unit * slip[..., 0].sum(axis=(1, 2)), unit * slip[..., 1].sum(axis=(1, 2))
 
 
-def contours(x, z, values, spacing):
-    """Pieces (level, x1, z1, x2, z2) of the contours at whole multiples of `spacing` of values at the middles of cells, linear on the two
-    triangles between each four of them, and absent where one is NaN."""
-    points = np.column_stack([np.repeat(x, len(z)), np.tile(z, len(x)), values.ravel()])
-    corner = (np.arange(len(x) - 1)[:, None] * len(z) + np.arange(len(z) - 1)).ravel()
-    triangles = np.concatenate([corner[:, None] + [0, 1, len(z)], corner[:, None] + [1, len(z), len(z) + 1]])
-    for triangle in triangles[np.isfinite(points[triangles, 2]).all(axis=1)]:
-        low, middle, high = points[triangle][np.argsort(points[triangle, 2], kind="stable")]
-        for k in range(math.floor(low[2] / spacing) + 1, math.floor(high[2] / spacing) + 1):
-            level = k * spacing
-            one, other = (low, middle) if level <= middle[2] else (middle, high)
-            ends = [a[:2] + (level - a[2]) / (b[2] - a[2]) * (b[:2] - a[:2]) for a, b in ((low, high), (one, other))]
-            if (ends[0] != ends[1]).any():
-                yield level, *ends[0].tolist(), *ends[1].tolist()
-
-
-def map_figure(plane, event, ending, values, column, label, script, more=""):
+def map_figure(plane, event, ending, values, column, label, script):
     """A map with the hypocentre, in multiples of a power of 1000, as numbers with exponents have no room beside the colours."""
     top = np.nanmax(values, initial=0.0)
     power = 3 * math.floor(math.log10(top) / 3) if top > 0 else 0
@@ -603,26 +443,17 @@ def map_figure(plane, event, ending, values, column, label, script, more=""):
     return Figure(ending, [f"rupture {event['event_id']} from its first place {plane.x_first:.6g}, {plane.z_first:.6g} and time {event['t_start']:.8g}: {label}"],
                   f"x,z,{column}", rows, "set datafile columnheaders\nset size ratio -1\nunset grid\nset key off\n"
                   + axis("x", "Along strike (model units)", x, x + length) + axis("y", "Along dip, upwards (model units)", z, z + width)
-                  + f"set cblabel {quote(f'{label} ({unit})', True)} offset 1\n{script}plot table using 1:2:($3*1e{-power}) with image{more}, "
+                  + f"set cblabel {quote(f'{label} ({unit})', True)} offset 1\n{script}plot table using 1:2:($3*1e{-power}) with image, "
                   f"'+' using ({plane.x_first}):({plane.z_first}) every ::::0 with points pt 3 ps 1.6*point lw 1.6 lc rgb '#0072B2'",
                   (1000, 160 + int(np.clip(740 * width / length, 200, 900))))  # yapf: disable
 
 
 def plane_figures(history, one, begin, end, arrival):
     event = largest(one._replace(events=one.events[(one.events["t_start"] >= begin) & (one.events["t_end"] <= end)]))
-    plane = Map(history, event, arrival or history.head["slip_velocity"])
+    plane = Map(history, event, arrival or history["slip_velocity"])
     yield map_figure(plane, event, "-slip", plane.slip, "slip", "Slip", FLAME + "set cbrange [0:*]\n")
-    least = (np.nanmax(plane.time, initial=0.0) or 1.0) / 12
-    spacing = next(d * 10.0**n for n in (math.floor(math.log10(least)), math.floor(math.log10(least)) + 1) for d in (1, 2, 5) if d * 10.0**n >= least)
-    pieces = [list(piece) for piece in contours(plane.x, plane.z, plane.time, spacing)]
-    yield Figure("-time-contours", [f"contours of the time since the rupture began, every {spacing:g}"], "time,x1,z1,x2,z2", pieces)
-    ends = {}  # each contour has its time where it is farthest along strike
-    for level, *piece in pieces:
-        ends[level] = max(ends.get(level, (-math.inf, 0.0)), tuple(piece[:2]), tuple(piece[2:]))
-    script = "set palette defined (0 '#f7fbff', 1 '#9ecae1', 2 '#3182bd', 3 '#08306b')\nset style textbox opaque noborder margins 0.3,0.3\n"
-    script += "".join(f"set label {quote(f'{{/*0.8 {level:g}}}', True)} at {x},{z} center front boxed\n" for level, (x, z) in ends.items())
-    yield map_figure(plane, event, "-time", plane.time, "time", "Time since the rupture began", script,
-                     ", base.'-contours.csv' using 2:3:($4-$2):($5-$3) with vectors nohead lc rgb '#000000' lw 1")
+    yield map_figure(plane, event, "-time", plane.time, "time", "Time since the rupture began",
+                     "set palette maxcolors 12 defined (0 '#f7fbff', 1 '#9ecae1', 2 '#3182bd', 3 '#08306b')\n")  # steps show the front
     yield map_figure(plane, event, "-rate", plane.rate, "peak_slip_rate", "Largest slip velocity", FLAME + "set cbrange [0:*]\n")
     time, along, down = plane.moment
     yield momentrate_figure(event, "length of both", [time, np.hypot(along, down), along, down])
@@ -642,17 +473,18 @@ def main(catalogues, label, history, begin, end, smallest, p_speed, s_speed, arr
         print(f"{one.label}: {len(moments)} ruptures, moments in all {moments.sum():.6g}, largest {moments.max(initial=0):.4g}, "
               f"longest {lengths.max(initial=0):.4g}")
     if json_file:
-        write_json(json_file, ruptures=[as_json(one, loaded) for one in relations_of(loaded, smallest)])
+        write_json(json_file, ruptures=[as_json(one) for one in relations_of(loaded, smallest)])
     figures = []
     if history:
         slip = History(history)
-        slip.check(loaded[0])
+        check(slip, loaded[0])
         figures += plane_figures(slip, loaded[0], begin, end, arrival) if slip.plane else line_figures(slip, loaded[0], begin, end,
                                                                                                        (p_speed, s_speed))
     try:
         figures += [
             density_figure(loaded, "-lengths", "rupture_length"),
-            density_figure(loaded, "-moments", "slip_moment"), *relations(loaded, smallest)
+            density_figure(loaded, "-moments", "slip_moment"),
+            length_figure(loaded, smallest)
         ]
     except ValueError as error:
         if not json_file and not (history and slip.plane):  # a rupture of a plane is often the only one of its run

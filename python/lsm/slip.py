@@ -12,24 +12,22 @@ long fault slips nearly always: shares and rates of slip leave these out.
 """
 import numpy as np
 
-import lsm
+from lsm.history import History
 
-__all__ = ["SLIP", "History", "excess_of", "judged", "recorded", "slip_share"]
+__all__ = ["SLIP", "Friction", "excess_of", "judged", "recorded", "slip_share"]
 
 STRETCHES = 40  # random stretches for each event
 SLIP = 0.5  # an event with a larger excess counts as slip
 
 
-class History:
+class Friction(History):
     """Frictional work of the whole fault, summed over time."""
 
     def __init__(self, path):
-        history = lsm.read_slip(path)
-        history = history[history["step_end"] > history["step_begin"]]  # a run that continues another begins with an empty record
-        self.dt = float(history.header["dt"])
-        self.offset = float(history.header["time0"]) - float(history.header["step0"]) * self.dt
-        self.steps = np.concatenate([history["step_begin"][:1], history["step_end"]]).astype(float)
-        self.work = np.concatenate([[0.0], np.cumsum(history["work"].sum(axis=1, dtype=float))])
+        super().__init__(path)
+        records = self.records[self.records["step_end"] > self.records["step_begin"]]
+        self.steps = np.concatenate([records["step_begin"][:1], records["step_end"]]).astype(float)
+        self.work = np.concatenate([[0.0], np.cumsum(records["work"].sum(axis=1, dtype=float))])
 
     def done(self, at):
         """Frictional work until a step."""

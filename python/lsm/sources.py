@@ -31,8 +31,9 @@ import numpy as np
 
 import lsm
 from lsm.drawing import KEY, Figure, axis, draw_all, quote
+from lsm.history import History
 from lsm.program import run
-from lsm.ruptures import FEWEST, MOMENT, History, fit, load
+from lsm.ruptures import FEWEST, MOMENT, check, fit, load
 
 __all__ = ["COLUMNS", "corner_frequency", "of_run", "replayed"]
 
@@ -74,19 +75,19 @@ def neighbours(shape, rings, gap):
 def replayed(history):
     """Where and when the fault slipped: record, cell and rupture of each slip, these by numbers of their own. The cells of a plane are
     counted along dip first."""
-    records, head = history.records, history.records.header
+    records, head = history.records, history.header
     shape = records["slip"].shape[1:3]
     shape = shape[:2 if history.plane else 1]
     rings = [head.get(key) != "open" for key in ("ends", "ends_dip")]
     gap, memory = int(head["gap"]), int(head["memory_intervals"])
-    least = history.head["slip_velocity"] * history.duration
+    least = history["slip_velocity"] * history.span
     slip = records["slip"].reshape(len(records), math.prod(shape), -1)
     slides = np.zeros(slip.shape[:2], bool)
     for part in np.array_split(np.arange(len(records)), max(1, slip.size >> 22)):
-        own = records["step_end"][part] - records["step_begin"][part] == history.head["interval"]
+        own = records["step_end"][part] - records["step_begin"][part] == history["interval"]
         slides[part] = (np.hypot.reduce(slip[part].astype(float), axis=2, initial=0.0) > least) & own[:, None]
     cell, record = np.nonzero(slides.T)
-    when = ((records["step_end"][record] - history.head["step0"]) // history.head["interval"]).astype(np.int64)
+    when = ((records["step_end"][record] - history["step0"]) // history["interval"]).astype(np.int64)
     # Spells: the slips of a cell without a pause between them. Those of neighbours are connected if no pause lies between the two.
     new = np.concatenate([[True], (cell[1:] != cell[:-1]) | (when[1:] - when[:-1] > memory)])[:len(cell)]
     spell, at = np.cumsum(new) - 1, np.flatnonzero(new)
@@ -142,8 +143,8 @@ class Source:
 
     def __init__(self, history, event, records, cells):
         """records, cells: of each of its slips"""
-        table, head, interval = history.records, history.head, history.duration
-        area = history.bin * (head["bin_dip"] if history.plane else 1.0)
+        table, modulus, interval = history.records, history["modulus"], history.span
+        area = history.bin * (history["bin_dip"] if history.plane else 1.0)
         shape = (len(table), -1, 2 if history.plane else 1)
         first, last = records.min(), records.max()
         inside, places = slice(first, last + 1), np.unique(cells)
@@ -159,7 +160,7 @@ class Source:
         total = moved.sum(axis=(0, 1))
         size = np.hypot.reduce(total)
         along = total / size if history.plane and size > 0 else np.eye(1, shape[2])[0]
-        self.rate = head["modulus"] * area / interval * (moved @ along).sum(axis=1)
+        self.rate = modulus * area / interval * (moved @ along).sum(axis=1)
         self.moment = float(self.rate.sum() * interval)
         before, after = of("stress", [max(first - 1, 0)])[0], of("stress", [min(last + 1, len(table) - 1)])[0]
         slipped, work = slip.sum(axis=0), of("work", inside).sum(axis=(0, 2))
@@ -182,7 +183,7 @@ class Source:
             source_duration=reached(0.95) - reached(0.05), peak_moment_rate=sign * (sign * self.rate).max(),
             centroid_time=(middle * self.rate).sum() * interval / self.moment if self.moment else middle.mean(), stress_work=stress_work,
             friction_work=friction, contact_energy=fault_work - friction, radiated_energy=radiated,
-            apparent_stress=head["modulus"] * radiated / abs(self.moment) if self.moment else 0.0,
+            apparent_stress=modulus * radiated / abs(self.moment) if self.moment else 0.0,
             fracture_energy=fracture_energy(stress @ along, slip @ along, work / area, before @ along, after @ along) * area,
             weighted_stress_drop=((before - after) * slipped).sum() / weight if weight else 0.0,
             corner_frequency=corner_frequency(sign * self.rate, interval))  # yapf: disable
@@ -190,12 +191,11 @@ class Source:
 
 def of_run(history, one):
     """The Source of each rupture of a catalogue, in its order. \\raises ValueError if the history does not have one of them"""
-    history.check(one)
+    check(history, one)
     record, cell, rupture = replayed(history)
     order = np.argsort(rupture, kind="stable")
     record, cell, rupture = record[order], cell[order], rupture[order]
     begins = np.append(np.flatnonzero(np.diff(rupture, prepend=-1)), len(rupture))
-    rows = history.records["slip"].shape[2] if history.plane else 1
     # A rupture is known by a place that slipped first, and by its first and last step.
     first = np.minimum.reduceat(record, begins[:-1]) if len(record) else record
     last = np.maximum.reduceat(record, begins[:-1]) if len(record) else record
@@ -203,11 +203,11 @@ def of_run(history, one):
     of_first = record == first[number]
     known = {key: n for *key, n in zip(record[of_first], cell[of_first], number[of_first]) for key in [tuple(key)]}
     record_of = {step: n for n, step in enumerate(history.records["step_begin"].tolist())}
+    axes = [("x_hypocentre", history.x, history.bin)] + ([("z_hypocentre", history.z, history["bin_dip"])] if history.plane else [])
     for event in one.events:
-        places = [(math.floor((event[name] - low) / width + 1e-6), bins)
-                  for name, low, width, bins in (("x_hypocentre", history.x0, history.bin, history.bins),
-                                                 ("z_hypocentre", history.head.get("z0"), history.head.get("bin_dip"), rows))[:1 + history.plane]]
-        at = sum(place % bins * (rows if n == 0 else 1) for n, (place, bins) in enumerate(places))
+        at = 0
+        for name, along, width in axes:
+            at = at * len(along) + round((event[name] - along[0]) / width) % len(along)
         n = known.get((record_of.get(int(event["step_start"])), at))
         if n is None or history.records["step_end"][last[n]] != event["step_end"]:
             raise ValueError(
@@ -266,10 +266,10 @@ def main(catalogue, history, output, overwrite, no_picture):
     record = History(history)
     sources = list(of_run(record, one))
     columns = [name for name in COLUMNS if name != "fracture_energy" or not one.events.header.get("law", "").startswith("coulomb")]
-    rates = [[event["event_id"], event["t_start"] + (n + 0.5) * record.duration,
+    rates = [[event["event_id"], event["t_start"] + (n + 0.5) * record.span,
               float(rate)] for event, source in zip(one.events, sources) for n, rate in enumerate(source.rate)]
     comments = ["moment rate of each rupture: its number, the middle of each interval, and moment per time, along its moment",
-                *(f"{key} = {one.events.header[key]}" for key in ("model", "length", "dt", "seed") if key in one.events.header), f"spacing = {record.duration:.17g}"]  # yapf: disable
+                *(f"{key} = {one.events.header[key]}" for key in ("model", "length", "dt", "seed") if key in one.events.header), f"spacing = {record.span:.17g}"]  # yapf: disable
     text = catalogue_with(catalogue, sources, columns)
     draw_all("lsm.sources", base, [Figure("-moment-rates", comments, "event_id,time,moment_rate", rates), *scaling(one, sources)],
              [catalogue, history], not no_picture)

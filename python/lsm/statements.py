@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 import lsm
-from lsm.analysis import events_of, numbers_in, numbers_of
+from lsm.analysis import events_of, numbers_of
+from lsm.history import History
 from lsm.program import run
 from lsm.tables import plain, write_json
 
@@ -99,30 +100,29 @@ def judge(value, error, limit, above):
     return "holds" if (value > limit) == above else "fails"
 
 
-def slip_statements(drops, slip):
+def slip_statements(drops, history):
     """The slip history of a fault compared with the drops of its PE. \\raises ValueError if these have no time in common"""
-    head = numbers_in(slip.header, "dt", "step0", "time0", "bin", "driving", "interval")
     if len(drops) < 2:
         raise ValueError("slip between drops of PE: fewer than two drops of this size")
-    driving, run_begin, run_end = abs(head["driving"]), drops["t_start"][0], drops["t_end"][-1]
-    begin, end = (head["time0"] + (slip[key] - head["step0"]) * head["dt"] for key in ("step_begin", "step_end"))
-    part = part_of(0.5 * (begin + end), run_begin, run_end)
-    kept = (end > begin) & (part >= 0)
+    driving, run_begin, run_end = abs(history["driving"]), drops["t_start"][0], drops["t_end"][-1]
+    part = part_of(history.middle, run_begin, run_end)
+    kept = (history.end > history.begin) & (part >= 0)
     if not kept.any():
         raise ValueError("no slip history in the time of the drops of PE")
-    records, begin, end, part = np.flatnonzero(kept), begin[kept], end[kept], part[kept]
-    time, bins = end - begin, slip["slip"].shape[1]
+    history, part = history.kept(kept), part[kept]
+    slip, begin, end, bins = history.records, history.begin, history.end, len(history.x)
+    time = end - begin
     # Share of each record in which a drop is open: drops do not overlap, so the time in drops until t is piecewise linear.
     corners = np.stack([drops["t_start"], drops["t_end"]], axis=1).ravel()
     open_until = np.concatenate([[0], np.cumsum(drops["t_end"] - drops["t_start"])])
     within_until = np.stack([open_until[:-1], open_until[1:]], axis=1).ravel()
     share = np.clip((np.interp(end, corners, within_until) - np.interp(begin, corners, within_until)) / time, 0, 1)
-    one = (slip["step_end"] - slip["step_begin"] == head["interval"])[records]
+    one = slip["step_end"] - slip["step_begin"] == history["interval"]
     mean, stress, backwards = np.zeros((3, len(time)))
     content = np.zeros((2, PARTS, len(EDGES) - 1))  # of velocities at all times, and in intervals of their own
     for first in range(0, len(time), rows := max(1, BLOCK // bins)):
         of = slice(first, first + rows)
-        amounts, stress[of] = slip["slip"][records[of]].astype(float), slip["stress"][records[of]].sum(axis=1, dtype=float)
+        amounts, stress[of] = slip["slip"][of].astype(float), slip["stress"][of].sum(axis=1, dtype=float)
         velocity, mean[of] = amounts / (time[of] * driving)[:, None], amounts.sum(axis=1) / bins
         forward = velocity >= 0
         backwards[of] = bins - forward.sum(axis=1)
@@ -134,7 +134,7 @@ def slip_statements(drops, slip):
         return np.bincount(at, values, PARTS)
 
     within, between, time_within, time_between = sums(share * mean), sums((1 - share) * mean), sums(share * time), sums((1 - share) * time)
-    work = sums((1 - share) * time * stress * head["bin"] * driving)
+    work = sums((1 - share) * time * stress * history.bin * driving)
     middle = part_of(0.5 * (drops["t_end"][:-1] + drops["t_start"][1:]), run_begin, run_end)
     rise = sums(drops["pe_start"][1:] - drops["pe_end"][:-1], middle)
     for text, some in zip(("at all times", "while something slips"), content):
@@ -201,7 +201,7 @@ def statements_of(postproc, path, begin, run=None, threshold=None):
     found = []
     try:
         if history != run and history.exists():
-            found += slip_statements(drops[drops["size"] >= least], lsm.read_slip(history))
+            found += slip_statements(drops[drops["size"] >= least], History(history))
         if ruptures != run and ruptures.exists():
             found += rupture_statement(events_of(ruptures, begin))
     except ValueError as error:

@@ -151,7 +151,7 @@ def test_ruptures_of_1_0(work):
     assert len(found) == len(one.events) > 10
     assert [source.moment for source in found] == pytest.approx(one.events["slip_moment"], rel=1e-9, abs=1e-12)
     for event, source in zip(one.events, found):
-        assert len(source.rate) * history.duration == pytest.approx(event["t_end"] - event["t_start"])
+        assert len(source.rate) * history.span == pytest.approx(event["t_end"] - event["t_start"])
         if event["rupture_length"] == history.bin:  # of more than one bin it is a mean over the row
             assert source.numbers["weighted_stress_drop"] == pytest.approx(event["stress_drop"] * np.sign(event["slip_moment"]), abs=1e-8)
 

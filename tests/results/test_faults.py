@@ -19,7 +19,7 @@ def history(cells, bins=10, count=40):
     work = np.zeros((count, bins))
     for at, value in cells.items():
         work[at] = value * FRICTION
-    return faults.History(dict(stress="0.03", velocity="0.00025"), np.arange(count), work / 0.018, work, 1.0, count)
+    return faults.Intervals(dict(stress="0.03", velocity="0.00025"), np.arange(count), work / 0.018, work, 1.0, count)
 
 
 def test_a_rupture_runs_on_over_one_place_three_intervals_and_the_ends_of_the_fault():

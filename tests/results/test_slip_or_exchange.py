@@ -48,7 +48,7 @@ def test_random_stretches_keep_clear_of_events_as_large(work):
     write_history("run.slip.bin", np.arange(1001), np.full((1001, 2), 1e-3))
     kinds = [("step_start", float), ("step_end", float), ("size", float)]
     events = np.array([(100.0, 150.0, 1.0), (400.0, 402.0, 0.1), (500.0, 550.0, 2.0), (700.0, 798.0, 5.0)], kinds)
-    starts = np.array(list(lsm_slip.random_starts(lsm_slip.History("run.slip.bin"), events, 0.0)))
+    starts = np.array(list(lsm_slip.random_starts(lsm_slip.Friction("run.slip.bin"), events, 0.0)))
     lasting = events["step_end"] - events["step_start"]
     assert starts.min() >= 0 and np.all(starts.max(axis=0) + lasting <= 1000)
     met = [[np.any((start < other["step_end"]) & (start + long > other["step_start"])) for other in events] for start, long in zip(starts.T, lasting)]

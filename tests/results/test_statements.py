@@ -9,8 +9,8 @@ from data_files import write_catalogue, write_history
 from programs import SOURCE, Program, refused, run
 
 sys.path.insert(0, str(SOURCE / "python"))
-import lsm  # noqa: E402
 from lsm import statements  # noqa: E402
+from lsm.history import History  # noqa: E402
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_slip_and_drops_add_up_by_hand(work):
     drops["pe_start"], drops["pe_end"] = 5.0, 5.0 - 8 * 0.9 * 0.02 * 6 * 0.001  # rises again by 0.9 of the work
 
     def found(least):
-        return {number: value for _, number, (value, _), *_ in statements.slip_statements(drops[drops["size"] >= least], lsm.read_slip("slip.bin"))}
+        return {number: value for _, number, (value, _), *_ in statements.slip_statements(drops[drops["size"] >= least], History("slip.bin"))}
 
     all_drops = found(0.5)
     between, within = 99 * 8 * 1e-4, 200 * 0.02
