@@ -32,34 +32,30 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
                         text::in_quotes(text), date ? "date" : "model time"));
     }
   };
-  group.call<std::vector<std::string>>(
-      option, read, help + "; at most a model time and a date, each for all", one_each(),
-      kind("TIME"), shown(time < 0.0 ? "start" : "end"));
+  group.call<std::vector<std::string>>(option, read, help, one_each(), kind("TIME"),
+                                       shown(time < 0.0 ? "start" : "end"));
 }
 
-std::string threshold_help(const std::string &what, const std::string &more) {
-  return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
-         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
-         "the largest 'completeness' in the headers of a model if that is larger †";
-}
+const std::string threshold_help =
+    "Smallest size of events (model energy; M2.5: magnitude 2.5); without it 1e-4, as in the "
+    "paper's Figs. 12 and 13, or the largest 'completeness' in the headers of a model if that is "
+    "larger †";
 
 }  // namespace
 
 void add_catalogues(CLI::App *command, CatalogueOptions &of) {
   OptionGroup group(command, "Catalogues");
   group.add("catalogues", of.paths,
-            "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
-            "slider_cli or postproc pick; or of earthquakes (columns with names, QuakeML, GeoJSON, "
-            "ZMAP, SCEDC), with times in days since 1970 UTC and sizes 10^(1.5 M)",
+            "Catalogue files, one curve each: of a model, or of earthquakes, with times in days "
+            "since 1970 UTC and sizes 10^(1.5 M)",
             required(), kind("FILE"), shown(""));
   group.add("--label", of.labels,
             "Name of a curve, once per catalogue and in their order (default: the model and its "
-            "length or number of blocks, from the header)",
+            "length)",
             kind("TEXT"), shown(""));
   group.flag("--lenient", of.lenient,
-             "Skip lines that cannot be read (truncated last line, missing columns, NaN, events "
-             "out of order), count them and report this on standard error; without it the first "
-             "of them is an error. A wrong version or header is always an error");
+             "Skip and count lines that cannot be read (truncated last line, missing columns, NaN, "
+             "events out of order); without it the first of them is an error");
   CLI::Option *const smallest = group.add(
       "--min-size", of.min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
       size_or_magnitude(), finite());
@@ -67,25 +63,22 @@ void add_catalogues(CLI::App *command, CatalogueOptions &of) {
       "--min-magnitude", [&of](double magnitude) { of.min_size = size_of_magnitude(magnitude); },
       "The same, as a magnitude", shown(""), excludes(smallest));
   add_time(group, "--from", of.from_time, of.from_day,
-           "Leave out events that start before this time, e.g. the warm-up (model time; for "
-           "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
+           "Leave out events that start before this time (model time; for earthquakes an ISO 8601 "
+           "date, such as 1984-01-01 or 1984-01-01T12:00Z)");
   add_time(group, "--to", of.to_time, of.to_day,
            "Leave out events that start at this time or later (as --from)");
   group.add(
       "--where", of.where,
-      "Leave out events of a model for which this does not hold: a column, one of < <= > >= = "
-      "!= and a number (units of the file), such as 'peak_slip > 0.001', or 'excess > 0.5', drops "
-      "of PE that are slip †: excess is what friction takes up within the event, less that in as "
-      "much time between events from --from to --to, over its size; may be repeated, and all have "
-      "to hold",
+      "Of a model only events for which this holds: a column, one of < <= > >= = != and a number "
+      "(units of the file), such as 'peak_slip > 0.001'; may be repeated, and all have to hold. "
+      "'excess > 0.5': drops of PE that are slip †: excess is what friction takes up within the "
+      "event, less that in as much time between events from --from to --to, over its size",
       one_each(), kind("CONDITION"), shown(""));
   group.add(
       "--format", of.format,
-      "Format of the files: detect (by the first bytes: '<' is quakeml, '{' geojson, "
-      "'# lsm-catalogue' models, column names with time and mag csv, YYYY/MM/DD scedc, nine "
-      "numbers zmap), or one of these. Events whose type says that they are no earthquakes "
-      "(blasts, ...) are left out and counted on standard error; if they are most, that is an "
-      "error unless --lenient",
+      "Format of the files; detect: by the first bytes. Events whose type says that they are no "
+      "earthquakes (blasts, ...) are left out and counted on standard error; if they are most, "
+      "that is an error unless --lenient",
       among({"detect", "models", "csv", "quakeml", "geojson", "zmap", "scedc"}));
   group.add("--region", of.regions,
             "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
@@ -96,8 +89,7 @@ void add_displacement(CLI::App *command, CatalogueOptions &of) {
   OptionGroup(command, "Catalogues")
       .flag("--displacement", of.displacement,
             "Times as displacements of the driving plate, model time times the 'velocity' in the "
-            "header, those of --from and --to included: for catalogues of different driving "
-            "velocities †");
+            "header, also those of --from and --to †");
 }
 
 void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::string &otherwise) {
@@ -123,21 +115,21 @@ void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::strin
       .call<std::string>(
           "--magnitude-bin", read,
           "Width of the bins to whose centres magnitudes are rounded, halves upwards; centres are "
-          "multiples of the width unless another one is given, as in 0.1:0.05; 0: none, magnitudes "
-          "are continuous. Without it " +
+          "multiples of the width unless another one is given, as in 0.1:0.05; 0: none. Without "
+          "it " +
               otherwise,
           kind("WIDTH[:CENTRE]"), shown(""));
 }
 
-void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
+void add_threshold(OptionGroup group, Threshold &threshold) {
   group.call<double>(
-      "--threshold", [&threshold](double size) { threshold = Threshold(size); },
-      threshold_help(what, ""), size_or_magnitude(), zero_or_more(), shown("1e-4"));
+      "--threshold", [&threshold](double size) { threshold = Threshold(size); }, threshold_help,
+      size_or_magnitude(), zero_or_more(), shown("1e-4"));
 }
 
-void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what) {
-  group.add("--threshold", thresholds, threshold_help(what, ", several allowed"), one_each(),
-            size_or_magnitude(), zero_or_more(), shown("1e-4"));
+void add_thresholds(OptionGroup group, std::vector<double> &thresholds) {
+  group.add("--threshold", thresholds, threshold_help, one_each(), size_or_magnitude(),
+            zero_or_more(), shown("1e-4"));
 }
 
 }  // namespace LSM::postproc

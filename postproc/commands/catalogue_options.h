@@ -22,11 +22,9 @@ void add_magnitude_bin(CLI::App *command, CatalogueOptions &of,
                        const std::string &otherwise = "the step of the magnitudes in the file");
 
 /// Adds --threshold.
-/// \param what completes "Smallest size of" in the help
-void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what);
+void add_threshold(OptionGroup group, Threshold &threshold);
 /// Adds --threshold, which may be given several times.
-/// \param what completes "Smallest size of" in the help
-void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what);
+void add_thresholds(OptionGroup group, std::vector<double> &thresholds);
 
 }  // namespace LSM::postproc
 

@@ -70,8 +70,8 @@ void Command::add_all_options(CLI::App *command) {
   add_options(command);
   OptionGroup(command).flag(
       "--overwrite", overwrite,
-      "Replace what is there. Without it, only figures, tables, pages and JSON are replaced, and "
-      "only those of an earlier run of the same command, which are known by how they begin");
+      "Replace what is there. Without it, only figures, tables, pages and JSON of an earlier run of "
+      "the same command are replaced");
 }
 
 void Analysis::run() {
@@ -95,9 +95,8 @@ void Analysis::add_picture(CLI::App *command, const std::string &base) {
   picture.output = base;
   OptionGroup group(command);
   group.add("-o,--output", picture.output,
-            "BASE of the files written: BASE.csv (table), BASE.gp (gnuplot script), BASE.png and "
-            "BASE.svg",
-            kind("BASE"));
+            "Files written: BASE.csv (table), BASE.gp (gnuplot script), BASE.png and BASE.svg",
+            kind("BASE"), shown("COMMAND"));
   group.flag("--no-picture", picture.no_picture,
              "Write the table and the script, do not run gnuplot");
 }
@@ -105,7 +104,7 @@ void Analysis::add_picture(CLI::App *command, const std::string &base) {
 void Analysis::add_table(OptionGroup group, const std::string &base) {
   has_base_ = true;
   picture.output = base;
-  group.add("--output,-o", picture.output, "BASE: the table is written to BASE.csv");
+  group.add("--output,-o", picture.output, "The table is written to BASE.csv", kind("BASE"));
 }
 
 void Statistic::add_usual(CLI::App *command, const std::string &base) {

@@ -31,7 +31,7 @@ class Compare : public Statistic {
     add_displacement(command, catalogues);
     OptionGroup group(command);
     add_table(group, "compare");
-    add_threshold(group, threshold_, "the events that are compared");
+    add_threshold(group, threshold_);
     group.add("--replicas", replicas_, "Random permutations for each p-value", positive());
     add_seed(group, seed_);
   }

@@ -136,9 +136,8 @@ class Explore : public Command {
   std::string output_ = "explore.html";
 
   const char *help() const override {
-    return "One self-contained page to explore runs in a browser †: PE with its events from "
-           "the whole run to single steps, a table of the events, each event with its slip, and "
-           "exponent, gamma and burstiness against a smallest size that can be dragged";
+    return "One self-contained page to explore runs in a browser †: PE, a table of the events, each "
+           "event with its slip, and statistics against a smallest size that can be dragged";
   }
 
   void add_options(CLI::App *command) override {

@@ -28,21 +28,19 @@ class Fit : public Statistic {
     add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
-              "LO:HI, sizes that are fitted, several allowed; without it three decades, as in the "
-              "paper, from --threshold on. "
-              "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
+              "Sizes that are fitted; without it three decades, as in the paper, from --threshold "
+              "on. LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
               "its header)",
               kind("LO:HI"), shown(""), one_each());
-    add_threshold(group, settings_.threshold, "the range and the picture");
+    add_threshold(group, settings_.threshold);
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);
     group.flag("--no-comparison", no_comparison_, "Leave out the rival laws");
     group.flag(
         "--roll-off", roll_off_,
-        "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
-        "on, taken as continuous also where magnitudes are in bins, and 2 ln L of d = 1 over "
-        "a power law without end †");
+        "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold on, "
+        "and 2 ln L of d = 1 over a power law without end †");
   }
 
   std::vector<std::string> endings() const override { return {".fits.csv", ".rolloff.csv"}; }

@@ -21,7 +21,7 @@ class Histograms : public Statistic {
     add_usual(command, "histograms");
     add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Densities");
-    add_threshold(group, threshold_, "the densities");
+    add_threshold(group, threshold_);
     group.add("--bin-factor", factor_,
               "Ratio of the edges of a bin, c of the paper's c^n († ten bins a "
               "decade); for earthquakes the nearest whole number of bins of magnitudes");

@@ -26,7 +26,7 @@ class Intervals : public Statistic {
   void add_options(CLI::App *command) override {
     add_usual(command, "intervals");
     OptionGroup group(command, "Inter-event times");
-    add_thresholds(group, settings_.thresholds, "the events");
+    add_thresholds(group, settings_.thresholds);
     group.flag("--rescale", settings_.rescale,
                "Divide the times of each curve by their mean (as Corral 2004 does)");
     group.add("--bin-factor", settings_.factor,
@@ -38,19 +38,18 @@ class Intervals : public Statistic {
               one_each());
     group.add("--shortest", settings_.shortest,
               "Leave times shorter than this multiple of their mean out of the fits; without it "
-              "likelihood leaves out those below 2.5 memories of the picker, which joins events "
-              "that are closer, and below 0.05 of the mean †, and least-squares none (as in "
-              "the paper). By likelihood gamma <= 0 needs a value above 0",
+              "likelihood leaves out those below 2.5 memories of the picker and below 0.05 of the "
+              "mean †, and least-squares none (as in the paper). By likelihood gamma <= 0 needs a "
+              "value above 0",
               shown(""), zero_or_more());
     group.add("--replicas", settings_.replicas,
-              "Synthetic samples of the Monte Carlo p-value of each fit by likelihood, fitted as "
-              "the data were; 0: none",
+              "Synthetic samples of the Monte Carlo p-value of each fit by likelihood; 0: none",
               zero_or_more());
     settings_.shuffles = -1;
     group.add(
         "--shuffles", settings_.shuffles,
-        "Random series with which burstiness, memory and the steadiness of the rate are compared; 0: none. With more than 1e5 times, the "
-        "default is fewer series, 2e7 times in all and at least 19",
+        "Random series with which burstiness, memory and the steadiness of the rate are compared; "
+        "0: none. With more than 1e5 times the default is fewer",
         shown("200"), zero_or_more());
     add_seed(group, settings_.seed);
   }

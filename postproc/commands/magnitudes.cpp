@@ -19,13 +19,10 @@ class Magnitudes : public Statistic {
   std::string complete_;
 
   const char *help() const override {
-    return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
-           "Mulargia 1987; error Shi and Bolt 1982), b-positive (van der Elst 2021) and "
-           "completeness by maximum curvature. † The paper has sizes only. Magnitudes are "
-           "those of the file for earthquakes, and for models a convention, M = (2/3) log10(size) + "
-           "constant, unless the model has SI units "
-           "(--unit-length, --p-speed, --density); a power law of sizes with exponent a gives b = "
-           "3 (a - 1) / 2";
+    return "Frequencies of magnitudes, b-value with its error, b-positive and completeness by "
+           "maximum curvature †; the paper has sizes only. Magnitudes are those of the file for "
+           "earthquakes, and for models a convention, M = (2/3) log10(size) + constant, unless the "
+           "model has SI units (--unit-length, --p-speed, --density)";
   }
 
   void add_options(CLI::App *command) override {
@@ -35,13 +32,11 @@ class Magnitudes : public Statistic {
                       "none for models; for earthquakes the step of the magnitudes in the file");
     OptionGroup group(command, "Magnitudes †");
     magnitudes_.add_to(group);
-    group.add(
-        "--complete-from", complete_,
-        "Magnitude above which the catalogue is complete: header, that of --threshold (of "
-        "sizes only); curvature, centre of the fullest bin + 0.2 (Wiemer and Wyss 2000; Woessner and "
-        "Wiemer 2005); or a magnitude",
-        shown("header, of moments curvature"));
-    add_threshold(group, threshold_, "--complete-from header");
+    group.add("--complete-from", complete_,
+              "Magnitude above which the catalogue is complete: header, that of --threshold (of "
+              "sizes only); curvature, centre of the fullest bin + 0.2; or a magnitude",
+              shown("header, of moments curvature"));
+    add_threshold(group, threshold_);
   }
 
   std::vector<std::string> endings() const override { return {".bvalues.csv"}; }

@@ -94,18 +94,17 @@ ModelUnits MagnitudeOptions::units(const std::string &path, const CatalogueInfo 
 
 void MagnitudeOptions::add_to(OptionGroup group) {
   group.add("--magnitude-of", made_of_,
-            "size: of the size of an event (an energy); moment: of its slip moment, a column that "
-            "not every catalogue has (fault: -var location yes)",
+            "size: of the size of an event (an energy); moment: of its slip moment (fault: -var "
+            "location yes)",
             among({"size", "moment"}), shown("size, with --unit-length moment"));
   group.add("--unit-length", length,
-            "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
-            "--density everything is in SI (postproc/units.md)",
+            "Metres in a unit of model length; with --p-speed and --density everything is in SI "
+            "(postproc/units.md)",
             positive());
   group.add("--p-speed", p_speed, "Speed of P-waves in the rock, m/s", positive());
   group.add("--density", density, "Density of the rock, kg/m^3", positive());
   group.add("--thickness", thickness,
-            "Metres of the fault across the plane of the model, to which energies and moments are "
-            "proportional; default: a unit of length",
+            "Metres of the fault across the plane of the model; default: a unit of length",
             positive());
   group.add("--magnitude-constant", constant, "Models: magnitude of an event of size (or moment) 1",
             finite());

@@ -51,10 +51,8 @@ class Pick : public Analysis {
   const char *help() const override {
     return "Picks the events of a PE series and writes their catalogue (paper: Sect. 4.1). The "
            "rows are those that the run itself writes with the same settings, without the "
-           "columns on slip, which a PE series does not have. Only next to a leap of the "
-           "block-slider (slider_cli --leap) the start or end of an event may differ by less than "
-           "the memory of the picker: in the run it does not look within leaps. One pass, whatever "
-           "the length of the series";
+           "columns on slip; next to a leap of the block-slider starts and ends may differ by less "
+           "than the memory of the picker";
   }
 
   void add_options(CLI::App *command) override {

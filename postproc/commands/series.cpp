@@ -20,9 +20,8 @@ class Series : public Analysis {
   std::int64_t columns_ = 2000;
 
   const char *help() const override {
-    return "Draws a PE series with the events picked from it: PE with the sizes of the events, its "
-           "change per sample with the smoothed change, the smoothed change (paper: Figs. 8, 11; "
-           "9; 10). Writes BASE.csv (the curves as drawn) and BASE-events.csv, too";
+    return "Draws a PE series with the events picked from it, its change per sample and the "
+           "smoothed change (paper: Figs. 8 to 11). Writes BASE.csv (the curves as drawn) and BASE-events.csv, too";
   }
 
   void add_options(CLI::App *command) override {
@@ -32,8 +31,8 @@ class Series : public Analysis {
     json.add_to(command);
     group.add("--title", title_, "Title of the picture", shown("number of events and times"));
     group.add("--columns", columns_,
-              "Columns of the picture †. More than twice as many samples are thinned to the "
-              "smallest and largest value in each column, of which there are up to twice as many",
+              "Columns of the picture †, in each of which many samples are thinned to the smallest "
+              "and largest",
               between(std::int64_t{10}, std::int64_t{1000000}));
     add_picture(command, "series");
     add_picker_options(command, picker_);

@@ -10,9 +10,8 @@ namespace LSM::postproc {
 
 void add_samples(OptionGroup group, SeriesOptions &of, bool window) {
   group.flag("--lenient", of.lenient,
-             "Drop a truncated last sample, as a killed run leaves it, and report this on "
-             "standard error; without it that is an error. Anything else wrong in a series "
-             "always is an error, as a missing sample would change what follows");
+             "Drop a truncated last sample, as a killed run leaves it; anything else wrong in a "
+             "series always is an error");
   if (!window) return;
   group.add("--from", of.from_time, "First time used (model time)", shown("start"));
   group.add("--to", of.to_time, "Last time used (model time)", shown("end"));
