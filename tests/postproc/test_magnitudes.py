@@ -100,7 +100,7 @@ def test_southern_california_is_exact(postproc, work, california, width):
         "b_positive": pytest.approx(positive, rel=1e-12)
     }
     page = (SOURCE / "postproc/statistics.md").read_text()
-    assert f"| {width} | {float(least):g} | {n} | {b:.6f} | {n_positive} | {positive:.6f} |" in page
+    assert f"| {width} | {float(least):g} | {n} | {b:.3f} | {positive:.3f} |" in page
 
 
 def test_what_is_complete_depends_on_the_events_in_the_window_only(postproc, work):
