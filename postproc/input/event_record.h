@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_record.h
-/// What a line or an element of a file says of an event, as text.
+/// What a line or an element of a file says of an event, as text, and what columns mean.
 #ifndef LSM_POSTPROC_EVENT_RECORD_H
 #define LSM_POSTPROC_EVENT_RECORD_H
 
@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "event_time.h"
 
 namespace LSM::postproc {
 
@@ -21,19 +23,11 @@ std::string in_small_letters(std::string_view text);
 bool is_missing(std::string_view text);
 
 /// What files may hold of an event.
-enum class Field {
-  latitude,
-  longitude,
-  magnitude,
-  type,
-  depth,
-  number_of_fields  // not a field
-};
-constexpr auto number_of_fields = static_cast<std::size_t>(Field::number_of_fields);
+enum class Field { latitude, longitude, magnitude, type, depth, number_of_fields };
 
 /// One event as in the file, with empty texts for what the file does not have.
 struct Record {
-  std::array<std::string, number_of_fields> texts = {};
+  std::array<std::string, static_cast<std::size_t>(Field::number_of_fields)> texts = {};
   std::string time = {};          ///< its texts, for messages
   std::optional<double> at = {};  ///< days since 1970, unless the time cannot be read
   std::string problem = {};       ///< what was expected instead of such a time, if known
@@ -50,14 +44,41 @@ struct Record {
 /// Splits a line at blanks, tabs and commas.
 Fields split_blanks(std::string_view line);
 
-/// Position of each field among names of columns or properties; -1: missing.
-struct Places : std::array<std::ptrdiff_t, number_of_fields> {
-  std::vector<std::size_t> other_magnitudes = {};  ///< and those of magnitudes that are no field
-};
-Places places_in(const Fields &names);
+/// The columns of a table, or the properties in GeoJSON, by their names. What two of them hold of
+/// the time must agree, and it has the parts that any of them has.
+class Columns {
+ public:
+  Columns() = default;
+  explicit Columns(const Fields &names);
 
-/// The record whose values, in the order of the names, are these.
-Record record_of(const Fields &values, const Places &places);
+  /// Names of what an event needs and the columns lack, out of 4.
+  Fields missing() const;
+  /// Whether a column counts.
+  bool uses(std::size_t column) const { return roles_[column] != no_role; }
+  /// Takes a line of the file: the style of times follows from all of them.
+  void learn(const Fields &values);
+  /// Whether a text of the time has a digit, as all times have.
+  bool has_time(const Fields &values) const;
+  /// The first text of the time.
+  std::string_view first_time(const Fields &values) const;
+  /// The event of a line.
+  Record record_of(const Fields &values) const;
+
+ private:
+  static constexpr int no_role = -1;
+  struct TimeColumn {
+    std::size_t at;
+    int role;
+    std::string name;
+  };
+  std::string time_texts(const Fields &values) const;
+  std::optional<double> time_of(const Fields &values, std::string &problem) const;
+  bool has(int role) const;
+
+  std::vector<int> roles_;         ///< of all columns
+  std::vector<TimeColumn> times_;  ///< in the order in which they count
+  TimeStyle style_;
+};
 
 }  // namespace LSM::postproc
 

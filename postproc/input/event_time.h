@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_time.h
-/// The time of an event, from the texts of a file: which names mean which part of a time, and how a
-/// time is composed of its parts.
+/// The time of an event from texts: dates and times of day as agencies write them.
 #ifndef LSM_POSTPROC_EVENT_TIME_H
 #define LSM_POSTPROC_EVENT_TIME_H
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "event_record.h"
 
 namespace LSM::postproc {
 
@@ -22,68 +17,67 @@ namespace LSM::postproc {
 /// zone is UTC.
 /// \return nothing if the text is not such a date, or may be more than one
 std::optional<double> parse_date(std::string_view text);
-/// \param problem why the text is no date, if it is not
+/// \param problem why the text is no date, if that is known
 std::optional<double> parse_date(std::string_view text, std::string &problem);
 
 /// ISO 8601 date and time, rounded to minutes, of days since 1970: 1994-01-17T12:30Z
 std::string date_text(double days);
 
-/// Parts of a time from years to seconds; what is not known has no value.
+/// Parts of a time; what is not known has no value.
 struct TimeParts {
   enum Part { year, month, day, hour, minute, second, number_of_parts };
   std::array<std::optional<double>, number_of_parts> values = {};
-  std::optional<int> ahead = {};  ///< of UTC, in minutes
+  std::optional<double> ahead = {};  ///< of UTC, in minutes
 
-  std::optional<double> &operator[](Part part) { return values[part]; }
-  const std::optional<double> &operator[](Part part) const { return values[part]; }
+  std::optional<double> &operator[](std::size_t part) { return values[part]; }
+  const std::optional<double> &operator[](std::size_t part) const { return values[part]; }
+
+  /// Adds parts from elsewhere.
+  /// \return whether they agree with those that are known
+  bool add(const TimeParts &others);
+  /// Adds what a text says of the time zone: UTC, +09:00
+  bool add_zone(std::string_view text, std::string &problem);
+  /// Days since 1970; the parts without a value are 0. What is out of its unit carries over, as in
+  /// 23:59:60.
+  /// \return nothing, and a problem, if there is no such time, or if a part is missing and a
+  /// smaller one is not
+  std::optional<double> days(std::string &problem) const;
 };
 
-/// How the texts of a column are to be taken that mean two things.
-struct TimeStyle {
-  enum class Dates { not_known, day_first, month_first, both } dates = Dates::not_known;
-  /// Of 1446: hours and minutes, minutes and seconds after leading zeros that are missing, or, next
-  /// to a year of 1446, a fraction of it.
-  enum class Digits { not_known, hhmm, hhmmss, hours, year, both } digits = Digits::not_known;
-};
+/// Days since 1970 of a year with a fraction.
+double days_of_year(double year);
 
-/// The columns of a table (or the properties in GeoJSON) that belong to the time of an event. What
-/// two of them hold must agree, and the time has the parts that any of them has.
-class TimeColumns {
+/// 1 to 12 of the English name of a month, which may be cut to three letters.
+std::optional<double> month_of(std::string_view name);
+
+/// How to read texts that mean two things, as all of a file say together.
+class TimeStyle {
  public:
-  TimeColumns() = default;
-  explicit TimeColumns(const Fields &names);
+  /// Takes a name of a column: dd/mm/yyyy, Time(hhmmss.ss)
+  void learn_name(std::string_view name);
+  /// Takes a text that may be a date.
+  void learn_date(std::string_view text);
+  /// Takes a text that may be a time of day.
+  /// \param year of the same line, if it is known
+  void learn_clock(std::string_view text, std::optional<double> year);
+  /// Whether a time of day is the year again, with a fraction: 2011.19034
+  bool is_year() const { return digits_ > 0 && in_year_; }
 
-  /// Whether the columns can give a date.
-  bool has_date() const;
-  /// Whether a column belongs to the time.
-  bool uses(std::size_t column) const { return used_[column]; }
-  /// Days since 1970 of a line.
-  /// \param problem says why there is no time, if there is none
-  std::optional<double> time_of(const Fields &values, std::string &problem);
-  /// The texts of a line that belong to its time.
-  std::string texts(const Fields &values) const;
-  /// The first of them.
-  std::string_view first_text(const Fields &values) const;
-  /// Whether a text in the columns has a digit, as all times have.
-  bool has_digits(const Fields &values) const;
-
-  using UseLine = std::function<void(const Fields &)>;
-  /// Passes all lines of the file to its argument: the style of texts follows from all of them.
-  std::function<void(const UseLine &)> for_each_line;
+  /// Reads a date, a time of day or both.
+  /// \return nothing if the text is none, with a problem if it is known
+  std::optional<TimeParts> parse(std::string_view text, bool needs_date,
+                                 std::string &problem) const;
 
  private:
-  struct Column {
-    std::size_t at;
-    int role;
-    std::string name;
-    TimeStyle style;
-    bool decided;
-  };
-  void decide(Column &column);
-  const Column *column_of(int role) const;
+  bool take_date(std::string_view &text, TimeParts &parts, std::string &problem) const;
+  bool take_clock(std::string_view &text, bool after_date, TimeParts &parts,
+                  std::string &problem) const;
 
-  std::vector<Column> columns_;  ///< in the order in which they count
-  std::vector<bool> used_;       ///< of all columns
+  bool day_first_ = false, month_first_ = false;  // in 13/10/2022, 10/13/2022
+  // Of times of day without colons: what they are, digits before the point, whether one has a
+  // point.
+  bool hhmm_ = false, hhmmss_ = false, fraction_ = false, in_year_ = true;
+  std::size_t digits_ = 0;
 };
 
 }  // namespace LSM::postproc

@@ -81,7 +81,7 @@ void read_geojson(std::string_view content, Collector &out) {
   out.count_in("feature");
   std::int64_t number = 0;
   Fields last_names;
-  TimeColumns times;
+  Columns columns;
   double latest = 0.0;
   for (const json &feature : features) {
     ++number;
@@ -92,14 +92,10 @@ void read_geojson(std::string_view content, Collector &out) {
       names.push_back(name);
       values.push_back(text_of(value));
     }
-    if (names != last_names) times = TimeColumns(last_names = names);
-    Record record = record_of(values, places_in(names));
-    record.time = times.texts(values);
-    double milliseconds = 0.0;
-    if (text::parse(times.first_text(values), milliseconds))
+    if (names != last_names) columns = Columns(last_names = names);
+    Record record = columns.record_of(values);
+    if (double milliseconds = 0.0; text::parse(columns.first_time(values), milliseconds))
       latest = std::max(latest, std::fabs(*(record.at = milliseconds / 86400e3)));
-    else
-      record.at = times.time_of(values, record.problem);
     if (coordinates.is_array() && coordinates.size() >= 2) {
       record[Field::longitude] = text_of(coordinates[0]);
       record[Field::latitude] = text_of(coordinates[1]);

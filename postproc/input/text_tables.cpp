@@ -76,20 +76,14 @@ struct Header {
   std::string_view line;
   char separator = ',';
   Fields names;
-  Places places{};
-  TimeColumns times;
+  Columns columns;
   Fields missing;  ///< names of what an event needs and the line lacks, out of 4
 
   Header(std::string_view line_in, char separator_in)
       : line(text::trim(line_in)), separator(separator_in), names(split(line, separator)) {
     while (names.size() > 1 && text::trim(names.back()).empty()) names.pop_back();
-    places = places_in(names);
-    times = TimeColumns(names);
-    const auto has = [this](Field field) { return places[static_cast<std::size_t>(field)] >= 0; };
-    if (!times.has_date()) missing.push_back("time");
-    if (!has(Field::latitude)) missing.push_back("latitude");
-    if (!has(Field::longitude)) missing.push_back("longitude");
-    if (!has(Field::magnitude)) missing.push_back("mag");
+    columns = Columns(names);
+    missing = columns.missing();
   }
   /// Whether the line is one of column names, though one of them may be missing.
   bool likely() const { return missing.size() <= 1; }
@@ -163,7 +157,7 @@ class Table {
   }
 
  private:
-  bool is_data() const { return problem.empty() && header.times.has_digits(fields); }
+  bool is_data() const { return problem.empty() && header.columns.has_time(fields); }
 
   bool take_names() {
     Header other = header_in(lines_.line);
@@ -209,17 +203,12 @@ class Table {
   /// it that are not used hold no text.
   bool is_text_last() const {
     const std::size_t last = header.names.size() - 1;
-    const auto is_used = [this](std::size_t i) {
-      return header.times.uses(i) ||
-             std::find(header.places.begin(), header.places.end(),
-                       static_cast<std::ptrdiff_t>(i)) != header.places.end();
-    };
     double value = 0.0;
     for (std::size_t i = 0; i < last; ++i)
-      if (!is_used(i) && !is_missing(text::trim(fields[i])) &&
+      if (!header.columns.uses(i) && !is_missing(text::trim(fields[i])) &&
           !text::parse(text::trim(fields[i]), value))
         return false;
-    return !is_used(last);
+    return !header.columns.uses(last);
   }
 };
 
@@ -240,27 +229,21 @@ void read_columns(std::string_view content, Collector &out) {
   if (!table.header.missing.empty())
     out.fail(table.number, "column names without " + either(table.header.missing, " and ") +
                                ", expected such as those of ComCat, NEIC, NCEDC, GeoNet or FDSN");
-  const auto all_lines = [](const Table &from) {
-    return [from](const TimeColumns::UseLine &use) {
-      for (Table other = from; other.next() && !other.other_names;)
-        if (other.problem.empty()) use(other.fields);
-    };
+  const auto learn = [](Table &from) {
+    for (Table other = from; other.next() && !other.other_names;)
+      if (other.problem.empty()) from.header.columns.learn(other.fields);
   };
-  table.header.times.for_each_line = all_lines(table);
+  learn(table);
   while (table.next()) {
-    TimeColumns &times = table.header.times;
     if (table.other_names) {
-      times.for_each_line = all_lines(table);
+      learn(table);
     } else if (!table.problem.empty()) {
       out.bad(table.number, table.problem);
     } else {
-      Record record = record_of(table.fields, table.header.places);
-      record.time = times.texts(table.fields);
+      const Record record = table.header.columns.record_of(table.fields);
       const bool empty =
           record.time.empty() && std::all_of(record.texts.begin(), record.texts.end(), is_missing);
-      if (empty) continue;  // as after an export of a spreadsheet
-      record.at = times.time_of(table.fields, record.problem);
-      out.add(record, table.number);
+      if (!empty) out.add(record, table.number);  // empty: as after an export of a spreadsheet
     }
   }
 }
@@ -296,27 +279,21 @@ void read_scedc(std::string_view content, Collector &out) {
 void read_zmap(std::string_view content, Collector &out) {
   const Fields names =
       split_blanks("longitude latitude year month day mag depth hour minute second");
-  const Places places = places_in(names);
-  TimeColumns times(names);
+  const Columns columns(names);
   for (Lines lines{content}; lines.next();) {
     Fields f = split_blanks(lines.line);
     double number = 0.0;
-    bool good = f.size() >= 9;
+    const bool good = f.size() >= 9;
     f.resize(names.size());
-    for (const std::string &text : f)
-      good = good && (text::parse(text, number) || is_missing(text));
-    std::string problem;
-    const std::optional<double> at = good ? times.time_of(f, problem) : std::nullopt;
-    if (!at) {
-      out.bad(
-          lines.number,
-          "no event of ZMAP, expected longitude, latitude, year (of four digits), month, day, magnitude, "
-          "depth, hour, minute and, if known, second");
-      continue;
-    }
-    Record record = record_of(f, places);
-    record.at = at;
-    out.add(record, lines.number);
+    const Record record = columns.record_of(f);
+    if (good && record.at && std::all_of(f.begin(), f.end(), [&](const std::string &text) {
+          return text::parse(text, number) || is_missing(text);
+        }))
+      out.add(record, lines.number);
+    else
+      out.bad(lines.number,
+              "no event of ZMAP, expected longitude, latitude, year (of four digits), month, day, "
+              "magnitude, depth, hour, minute and, if known, second");
   }
 }
 

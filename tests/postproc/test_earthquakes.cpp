@@ -121,7 +121,7 @@ TEST(Earthquakes, DatesAndTimes) {
   for (const char *other : {"2000-3-1 6:00", "2000.03.01 06:00:00", "20000301060000",
                             "200003010600", "20000301T060000Z", "2000-03-01 06:00:00 UTC",
                             "1 Mar 2000 06:00", "March 1, 2000 6:00:00 AM", "2000-03-01 05:60:00",
-                            "2000-03-01 06:01:-60", "2000-03-01T05:59:59,999999999"}) {
+                            "01-Mar-2000 06:00", "2000-03-01T05:59:59,999999999"}) {
     ASSERT_TRUE(parse_date(other)) << other;
     EXPECT_NEAR(*parse_date(other), 11017.25, 1e-9) << other;
   }
@@ -271,7 +271,6 @@ TEST(Earthquakes, ColumnsOfTheTime) {
                {"anno,mese,giorno,ora,minuti,secondi", "2022,10,13,6,29,41.1"},
                {"Jahr,Monat,Tag,Stunde,Minute,Sekunde", "2022,10,13,6,29,41.1"},
                {"date,time,timezone", "2022-10-13,15:29:41.1,+09:00"},
-               {"year,doy,hour,minute,second,msec", "2022,286,6,29,41,100"},
                {"year,month,day,time", "2022,10,13,062941.1"},
                {"year,month,day,ot,Mo", "2022,10,13,0629 41.1,5.6e26"},
                {"year,month,day,hour,minute,second,time", "2022,10,13,6,29,41.1,2022.7815"}};
@@ -294,12 +293,14 @@ TEST(Earthquakes, NoPartOfATimeIsDroppedInSilence) {
       {"date,Saat", "2022-10-13,06:29:41.1", "a name such as time for the column of '06:29:41.1'"},
       {"date,local time", "2022-10-13,14:29:41.1", "a name such as time for the column of"},
       {"date,time,ampm", "2022-10-13,06:29:41,PM", "no column ampm"},
+      {"date,time,msec", "2022-10-13,06:29:41,100", "no column msec"},
+      {"year,doy,hour,minute", "2022,286,6,29", "the month as well as the minute"},
       {"date,time,hour", "2022-10-13,06:29:41,14", "the same time in the column 'hour'"},
       {"date,time", "2022-10-13,2022-10-14T06:29", "the same time in the column 'date'"},
       {"year,month,day,time", "2022,10,13,2022.19034", "a decimal year on the day"},
       {"time", "2011.19034", "hhmm, hhmmss or hh:mm:ss"},
-      {"date,time", "221013,06:29", "a date with a year of four digits"},
-      {"date,time", "13/10/22,06:29", "a year of four digits"}};
+      {"date,time", "221013,06:29", "a possible date with a year of four digits"},
+      {"date,time", "13/10/22,06:29", "a possible date with a year of four digits"}};
   for (const auto &one : cases)
     expect_error<FileError>([&] { seconds_of(one.columns, one.line + "\n"); }, one.says);
 }
