@@ -92,7 +92,7 @@ void add_displacement(CLI::App *command, CatalogueOptions &of) {
             "header, also those of --from and --to †");
 }
 
-void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::string &otherwise) {
+void add_magnitude_bin(CLI::App *command, CatalogueOptions &of) {
   const auto read = [&of](const std::string &given) {
     MagnitudeBins bins;
     const std::size_t colon = given.find(':');
@@ -116,8 +116,7 @@ void add_magnitude_bin(CLI::App *command, CatalogueOptions &of, const std::strin
           "--magnitude-bin", read,
           "Width of the bins to whose centres magnitudes are rounded, halves upwards; centres are "
           "multiples of the width unless another one is given, as in 0.1:0.05; 0: none. Without "
-          "it " +
-              otherwise,
+          "it the step of the magnitudes in the file",
           kind("WIDTH[:CENTRE]"), shown(""));
 }
 

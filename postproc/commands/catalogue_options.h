@@ -17,9 +17,7 @@ void add_catalogues(CLI::App *command, CatalogueOptions &of);
 /// Adds --displacement, for commands whose output does not state a unit of time.
 void add_displacement(CLI::App *command, CatalogueOptions &of);
 /// Adds --magnitude-bin, for commands whose results depend on it.
-/// \param otherwise what is done without it, for the help
-void add_magnitude_bin(CLI::App *command, CatalogueOptions &of,
-                       const std::string &otherwise = "the step of the magnitudes in the file");
+void add_magnitude_bin(CLI::App *command, CatalogueOptions &of);
 
 /// Adds --threshold.
 void add_threshold(OptionGroup group, Threshold &threshold);

@@ -9,7 +9,6 @@ namespace {
 
 class Histograms : public Statistic {
   Threshold threshold_;
-  double factor_ = usual_bin_factor;
   std::vector<std::string> guides_;
 
   const char *help() const override {
@@ -22,9 +21,6 @@ class Histograms : public Statistic {
     add_magnitude_bin(command, catalogues);
     OptionGroup group(command, "Densities");
     add_threshold(group, threshold_);
-    group.add("--bin-factor", factor_,
-              "Ratio of the edges of a bin, c of the paper's c^n († ten bins a "
-              "decade); for earthquakes the nearest whole number of bins of magnitudes");
     group.add("--guide", guides_,
               "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, fault) "
               "or -0.5:1e-3:1 (paper, small events of the block-slider)",
@@ -37,7 +33,7 @@ class Histograms : public Statistic {
       lines.push_back(parse_guide(guide));
       lines.back().dash = 1 + static_cast<int>(lines.size());
     }
-    const std::vector<SizeDensity> densities = size_densities(tables, threshold_, factor_);
+    const std::vector<SizeDensity> densities = size_densities(tables, threshold_);
     Figure figure = size_density_figure(densities, lines);
     figure.table.comment(texts(threshold_, tables));
     Results results;

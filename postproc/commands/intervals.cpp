@@ -29,8 +29,6 @@ class Intervals : public Statistic {
     add_thresholds(group, settings_.thresholds);
     group.flag("--rescale", settings_.rescale,
                "Divide the times of each curve by their mean (as Corral 2004 does)");
-    group.add("--bin-factor", settings_.factor,
-              "Ratio of the edges of a bin (ten bins a decade) †");
     group.add("--method", method_,
               "Fit by least-squares on the density (as in the paper), likelihood †, or both",
               among({"least-squares", "likelihood", "both"}));

@@ -4,19 +4,15 @@
 #ifndef LSM_POSTPROC_OPTIONS_H
 #define LSM_POSTPROC_OPTIONS_H
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "event_table.h"
-#include "files/catalogue.h"
 #include "files/output_claim.h"
-#include "magnitudes.h"
 #include "option_group.h"
 #include "size_figures.h"
-#include "units.h"
 
 namespace LSM::postproc {
 
@@ -31,44 +27,6 @@ Range parse_range(const std::string &option, std::string_view text);
 /// Parses "SLOPE" or "SLOPE:LO:HI" of --guide.
 /// \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
-
-/// Options that define the magnitudes of events.
-struct MagnitudeOptions {
-  std::optional<double> constant;
-  /// Unit of length (m), speed of P-waves (m/s), density (kg/m^3) and thickness (m).
-  std::optional<double> length, p_speed, density, thickness;
-
-  /// Adds --magnitude-of, --unit-length, --p-speed, --density, --thickness and
-  /// --magnitude-constant.
-  void add_to(OptionGroup group);
-  /// Whether any unit of the fault is given in SI.
-  bool in_si() const { return length || p_speed || density || thickness; }
-  /// The units. The default of the thickness is the unit of length.
-  /// \throws std::invalid_argument if one of the first three is missing
-  ModelUnits units() const;
-  /// As units(), for one catalogue.
-  /// \throws std::runtime_error if its model has no elastic medium
-  ModelUnits units(const std::string &path, const CatalogueInfo &info) const;
-  /// \throws std::invalid_argument if options contradict each other
-  void check() const;
-  /// Whether something was given that earthquakes, which have magnitudes, do not need.
-  bool for_models() const { return in_si() || constant; }
-  /// Name of the column from which magnitudes are calculated.
-  std::string of() const { return of_moment() ? "slip_moment" : "size"; }
-  bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && in_si()); }
-  double quantity(const EventRow &event, const CatalogueInfo &info) const {
-    return of_moment() ? info.number(event, "slip_moment") : event.size;
-  }
-  /// Formula of the magnitude, for people.
-  std::string text() const;
-  /// Magnitude scale of one catalogue.
-  /// \throws std::runtime_error if the catalogue lacks the column, its model has no SI units, or
-  /// its header an impossible modulus
-  MagnitudeScale scale(const std::string &path, const CatalogueInfo &info) const;
-
- private:
-  std::string made_of_;
-};
 
 /// Option --json: a JSON object that holds each table under its name, as an array with an object
 /// per row.

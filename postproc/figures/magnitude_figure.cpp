@@ -10,8 +10,7 @@
 
 namespace LSM::postproc {
 
-Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const std::string &formula) {
-  constexpr double slope = MagnitudeScale::slope;
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves) {
   TableOf<MagnitudeCurve> table;
   table.show("catalogue", &MagnitudeCurve::label);
   table.show("magnitudes", [](auto &c) { return c.magnitudes.size(); });
@@ -22,8 +21,8 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const std::stri
   table.column("n", "used for b", [](auto &c) { return c.b.n; });
   table.column("b", "b", [](auto &c) { return Measured{c.b.b, c.b.error}; });
   table.show("degenerate", [](auto &c) { return c.b.why; });
-  table.show(fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), [](auto &c) {
-    return Measured{1.0 + slope * c.b.b, slope * c.b.error};
+  table.show("exponent of the sizes 1 + 2 b / 3", [](auto &c) {
+    return Measured{1.0 + 2.0 / 3.0 * c.b.b, 2.0 / 3.0 * c.b.error};
   });
   table.column("n_positive", "used for b-positive", [](auto &c) { return c.positive.n; });
   table.column("b_positive", "b-positive", [](auto &c) {
@@ -36,7 +35,9 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const std::stri
   for (const MagnitudeCurve &curve : curves)
     if (std::string one = text(curve.bins); std::find(bins.begin(), bins.end(), one) == bins.end())
       bins.push_back(std::move(one));
-  table.comment(fmt::format("{}, bins of {} (0: none)", formula, fmt::join(bins, ", ")));
+  table.comment(fmt::format(
+      "M of earthquakes as in the file, of models (2/3) log10(size); bins of {} (0: none)",
+      fmt::join(bins, ", ")));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
   for (const MagnitudeCurve &curve : curves) table.row(curve);

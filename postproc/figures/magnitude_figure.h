@@ -25,8 +25,7 @@ struct MagnitudeCurve {
 };
 
 /// Magnitudes of completeness and b-values, a row per catalogue.
-/// \param formula of the magnitudes, for readers of the table
-Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const std::string &formula);
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves);
 
 /// Numbers of events per bin and cumulative numbers of events from each magnitude on, with the
 /// fitted laws.

@@ -155,7 +155,6 @@ EventTable read_model_events(std::unique_ptr<files::Bytes> bytes, const Catalogu
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
-  if (options.bins_for_models) table.bins = options.magnitude_bins.value_or(MagnitudeBins());
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
   EventConditions where(options.where, table.info, path);
   table.complete_from = std::max(table.complete_from, where.least_size());
@@ -295,7 +294,7 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
   if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
     throw std::invalid_argument(
         "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
-  if (quakes == 0 && options.magnitude_bins && !options.bins_for_models)
+  if (quakes == 0 && options.magnitude_bins)
     throw std::invalid_argument("--magnitude-bin, but no catalogue is of earthquakes");
   if (quakes == 0 && !options.regions.empty())
     throw std::invalid_argument("--region, but no catalogue is of earthquakes");

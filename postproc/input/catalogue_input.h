@@ -29,7 +29,6 @@ struct CatalogueOptions {
   double to_day = std::numeric_limits<double>::infinity();  ///< first day of earthquakes left out
   /// Number of the largest events whose columns are all kept; ties may make them a few more.
   std::size_t details = 0;
-  static constexpr std::size_t all_events = std::numeric_limits<std::size_t>::max() / 2;
   std::string format = "detect";     ///< detect, models, csv, quakeml, zmap or scedc
   std::vector<std::string> regions;  ///< "W/E/S/N", for earthquakes; a table for each
   /// Whether times, from_time and to_time included, are displacements of the driving plate: model
@@ -37,7 +36,6 @@ struct CatalogueOptions {
   bool displacement = false;
   /// Bins of magnitudes, of width 0: none; without it those that are recognized.
   std::optional<MagnitudeBins> magnitude_bins;
-  bool bins_for_models = false;  ///< whether magnitude_bins are for models as well
 };
 
 /// An event as it is read.

@@ -10,7 +10,7 @@
 
 namespace LSM::postproc {
 
-SizeDensity size_density(const EventTable &table, const Threshold &threshold, double factor) {
+SizeDensity size_density(const EventTable &table, const Threshold &threshold) {
   SizeDensity out;
   out.label = table.label;
   out.model = table.info.model;
@@ -26,18 +26,18 @@ SizeDensity size_density(const EventTable &table, const Threshold &threshold, do
     const double smallest = std::max(least, *std::min_element(sizes.begin(), sizes.end()));
     const double first = std::ceil(std::log(smallest / unit) / step - magnitude_tolerance);
     const double edge = unit * std::exp((first - 0.5) * step);
-    const double together = std::max(1.0, std::round(std::log(factor) / step));
+    const double together = std::max(1.0, std::round(std::log(usual_bin_factor) / step));
     out.bins = log_histogram(sizes, std::exp(together * step), edge,
                              std::numeric_limits<double>::infinity(), edge);
   } else {
-    out.bins = log_histogram(sizes, factor, least);
+    out.bins = log_histogram(sizes, usual_bin_factor, least);
   }
   for (const LogBin &bin : out.bins) out.events += bin.count;
   return out;
 }
 
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
-                                        const Threshold &threshold, double factor) {
+                                        const Threshold &threshold) {
   std::vector<SizeDensity> all;
   double least = std::numeric_limits<double>::infinity();
   bool any = false;
@@ -45,7 +45,7 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   std::size_t events = 0;
   expect_events(tables);
   for (const EventTable &table : tables) {
-    all.push_back(size_density(table, threshold, factor));
+    all.push_back(size_density(table, threshold));
     least = std::min(least, threshold.of(table).size);
     any = any || !all.back().bins.empty();
     for (const EventSummary &event : table.events) sizes.add(event.size);

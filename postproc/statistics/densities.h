@@ -25,19 +25,15 @@ struct SizeDensity {
 };
 
 /// Bins the sizes of each catalogue. Where magnitudes are in bins of their own, a bin of sizes
-/// holds a whole number of these, the nearest to the factor, from the smallest size on: any others
-/// would hold now more, now fewer of them.
-/// \param threshold smallest size
-/// \param factor ratio of the edges of a bin
-/// \return densities in the order of the catalogues
-/// \throws DegenerateData if no catalogue has an event of this size, or all sizes are equal
+/// holds a whole number of these, the nearest to usual_bin_factor, from the smallest size on: any
+/// others would hold now more, now fewer of them. \param threshold smallest size \return densities
+/// in the order of the catalogues \throws DegenerateData if no catalogue has an event of this size,
+/// or all sizes are equal
 std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
-                                        const Threshold &threshold,
-                                        double factor = usual_bin_factor);
+                                        const Threshold &threshold);
 
 /// The same for one catalogue, which may have no events.
-SizeDensity size_density(const EventTable &table, const Threshold &threshold = {},
-                         double factor = usual_bin_factor);
+SizeDensity size_density(const EventTable &table, const Threshold &threshold = {});
 
 /// Amplitude C of the density C s^-alpha of all events in the bins, for a law that was fitted to
 /// some of them.

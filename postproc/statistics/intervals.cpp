@@ -85,7 +85,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.zeros = curve.n - static_cast<std::int64_t>(times.size());
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
-  curve.bins = log_histogram(times, settings.factor);
+  curve.bins = log_histogram(times);
   curve.sample.memory = table.picker_memory();
   if (settings.rescale) curve.sample.memory /= curve.mean;
   if (!times.empty())

@@ -22,9 +22,8 @@ namespace LSM::postproc {
 struct IntervalSettings {
   /// Smallest sizes (model energy), one curve each; empty: Threshold().
   std::vector<double> thresholds;
-  bool rescale = false;              ///< divide the times by their mean
-  double factor = usual_bin_factor;  ///< ratio of the edges of a bin
-  std::optional<double> shortest;    ///< see shortest_time()
+  bool rescale = false;            ///< divide the times by their mean
+  std::optional<double> shortest;  ///< see shortest_time()
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< for the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;

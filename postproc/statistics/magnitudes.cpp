@@ -94,8 +94,6 @@ std::optional<MagnitudeBins> widest_bins(const std::vector<double> &magnitudes, 
 
 }  // namespace
 
-double MagnitudeScale::of(double size) const { return slope * std::log10(size) + constant; }
-
 double size_of_magnitude(double magnitude) { return std::pow(10.0, 1.5 * magnitude); }
 
 double magnitude_of_size(double size) { return std::log10(size) / 1.5; }

@@ -18,18 +18,8 @@
 
 namespace LSM::postproc {
 
-/// M = (2/3) log10(size) + constant. The slope is that between magnitude and the logarithm of
-/// radiated energy or seismic moment. The constant is free, as the models have no unit of
-/// energy.
-struct MagnitudeScale {
-  static constexpr double slope = 2.0 / 3.0;
-  double constant = 0.0;
-  /// Magnitude of an event; size > 0.
-  double of(double size) const;
-};
-
-/// Size of an earthquake, defined by M = (2/3) log10(size) as for the magnitudes of models: an
-/// energy in units of that of M = 0 (Gutenberg & Richter 1956).
+/// Sizes of earthquakes, and magnitudes of models, by M = (2/3) log10(size): an energy in units of
+/// that of M = 0 (Gutenberg & Richter 1956).
 double size_of_magnitude(double magnitude);
 double magnitude_of_size(double size);
 

@@ -44,8 +44,8 @@ SLIDERS = {
 }
 POSTPROCS = ("histograms {one} {chain} --no-picture -o o", "intervals {one} {chain} --replicas 2 --no-picture -o o",
              "intervals {chain} --method likelihood --replicas 2 --no-picture -o o", "fit {one} --range 1e-4:0.1 --replicas 2 --no-picture -o o",
-             "magnitudes {one} --magnitude-bin 0.1 --no-picture -o o", "count {one}", "compare {one} {chain} --replicas 10 -o o",
-             "series {series} --no-picture -o o", "pick {series} -o o.csv", "select {one} --min-size 1e-3 -o o.csv")
+             "magnitudes {one} --no-picture -o o", "count {one}", "compare {one} {chain} --replicas 10 -o o", "series {series} --no-picture -o o",
+             "pick {series} -o o.csv", "select {one} --min-size 1e-3 -o o.csv")
 
 COLUMNS = {}
 

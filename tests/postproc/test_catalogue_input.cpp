@@ -121,7 +121,7 @@ TEST_F(CatalogueInput, EventsTakeNoMoreMemoryThanTheirUse) {
   EXPECT_TRUE(
       std::is_sorted(largest.begin(), largest.end(),
                      [](const EventRow &a, const EventRow &b) { return a.t_start < b.t_start; }));
-  options.details = CatalogueOptions::all_events;
+  options.details = 1000;
   EXPECT_EQ(load_catalogue(name, options).details.size(), 1000u);
 }
 

@@ -43,9 +43,7 @@ const std::vector<double> published = {
     0.203427,  -0.088574, 0.081362,  0.576132};
 
 TEST(Magnitudes, OfSizes) {
-  const MagnitudeScale usual, shifted{4.5};
-  EXPECT_DOUBLE_EQ(usual.of(1000.0), 2.0);
-  EXPECT_DOUBLE_EQ(shifted.of(1000.0), 6.5);
+  EXPECT_DOUBLE_EQ(magnitude_of_size(1000.0), 2.0);
   EXPECT_DOUBLE_EQ(MagnitudeBins{0.1}.binned(0.249), 0.2);
   EXPECT_DOUBLE_EQ(MagnitudeBins{0.5}.binned(0.25), 0.5);
   EXPECT_DOUBLE_EQ(MagnitudeBins{0.5}.binned(-0.25), 0.0);

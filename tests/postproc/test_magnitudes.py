@@ -141,17 +141,6 @@ def test_bins_wider_than_the_step_begin_with_a_whole_one(postproc, work, califor
     assert (found["completeness"], found["maximum_curvature"], found["n"]) == (2, 2.3, n) and found["b"] == pytest.approx(b, rel=1e-12)
 
 
-def test_bins_of_models_begin_with_a_whole_one(postproc, work):
-    """Half of the bin of M -2 is below the smallest size of the catalogue."""
-    sizes = 1e-3 / np.random.default_rng(3).uniform(size=20000)  # b = 1.5
-    write_catalogue("a.csv", range(len(sizes)), sizes, dict(model="lsm", length=40, min_size=1e-3))
-    for width, lowest in ((0.1, -1.9), (0.5, -1.5)):
-        found = b_values(postproc, f"a.csv --magnitude-bin {width}")
-        assert found["completeness"] == lowest and found["b"] == pytest.approx(1.5, abs=5 * 1.5 / found["n"]**0.5), width
-    assert b_values(postproc, "a.csv --magnitude-bin 0.1 --threshold 1e-2")["completeness"] == pytest.approx(-1.3)
-    assert b_values(postproc, "a.csv --magnitude-bin 0")["n"] == 20000
-
-
 def test_law_is_drawn_from_the_edge_at_which_it_begins(postproc, work):
     """The first bin holds all events, and so does the line at its lower edge."""
     quakes("q.csv", gutenberg_richter(500, 0.5))
