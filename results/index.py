@@ -1,32 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the files of this folder and the numbers of sentences are, which program makes them, and of which study's runs. Each file has one line."""
+"""What the files of this folder are, which program makes them, and of which study's runs. Each file has one line."""
 import subprocess
 from fnmatch import fnmatch
 from pathlib import Path
 
-import values
-
 FOLDER = Path(__file__).resolve().parent
-# what a key begins with, what the number is
-KEYS = (
-    ("rate ratio", "rates of drops and of slips, and how much the faults differ in them"),
-    ("exponent gamma B run within", "exponent of sizes, gamma, B and mean time of drops, by likelihood; how many runs are within the tolerances"),
-    ("estimator cut", "gamma with other smallest sizes and smallest times"),
-    ("velocity", "rates at half the velocity of the plates"),
-    ("share", "share of drops that are slip, with two nulls"),
-    ("budget", "work of friction, and the share of large slips in it"),
-    ("ruptures variant", "ruptures by the work of friction; wider blocks"),
-    ("burst trapped", "stretches in which single discs ring, and these discs"),
-    ("crossing spectrum", "drops after a large one; series that have the spectrum only"),
-    ("scaling", "how the largest drops and ruptures go with the length"),
-    ("calibration", "how many of the values that were tried meet a statement"),
-    ("slider chain walk", "the block-slider, and stations between it and the fault"),
-    ("tpv205 tpv3 tpv101 barrier tpv5 single absorbing_step", "flat ruptures, barriers, single events, time steps"),
-    ("nature slow laws", "earthquakes, slow plates, friction laws"),
-    ("sources", "ruptures of the leaky fault as sources of waves"),
-    ("plane", "ruptures of the fault in three dimensions"),
-    ("speed", "speed beside other programs"),
-)
 # pattern of files, what they are, what makes them, study
 FILES = (
     ("values.csv", "numbers of sentences", "tables.py --values", "all"),
@@ -70,28 +48,13 @@ def lines_of(name):
 
 
 def wrong():
-    """Files without a line or with two, keys without one, and lines without a file."""
+    """Files without a line or with two, and lines without a file."""
     found = files()
     said = [f"{name}: {len(lines_of(name))} lines of index.py say what it is, expected one" for name in found if len(lines_of(name)) != 1]
-    said += [
-        f"index.py: no file is called {pattern}" for line in FILES for pattern in line[0].split()
-        if not any(fnmatch(name, pattern) for name in found)
-    ]
-    known = " ".join(line[0] for line in KEYS).split()
     return said + [
-        f"{first}: no line of index.py says what these numbers are" for first in sorted({key.split('.')[0]
-                                                                                         for key in values.read()} - set(known))
+        f"index.py: no file is called {pattern}" for line in FILES
+        for pattern in line[0].split() if not any(fnmatch(name, pattern) for name in found)
     ]
-
-
-def keys_table():
-    """What the numbers are, and from which files."""
-    rows, found = [], values.read()
-    for firsts, what in KEYS:
-        some = [one for key, one in found.items() if key.split(".")[0] in firsts.split()]
-        sources = sorted({word if "/" not in word else word.split("/")[0] + "/" for one in some for word in one.source.split()})
-        rows.append([" ".join(f"`{first}`" for first in firsts.split()), what, str(len(some)), " ".join(f"`{source}`" for source in sources)])
-    return ["keys begin with", "what they are", "keys", "from"], rows
 
 
 def files_table():

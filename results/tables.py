@@ -353,7 +353,7 @@ TABLES = speed_tables.TABLES | validation_tables.TABLES | {
         "time step; masses; onset": lambda row: f"{row['dt']}; {'raised' if float(row['massstep']) else 'r^2'}; {row['onset']}",
         "model time per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}",
         "events >= 1e-3": "rate", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}),
-    "walk": lambda: walk.table(shown), "index": index.keys_table, "files": index.files_table,
+    "walk": lambda: walk.table(shown), "files": index.files_table,
 }  # yapf: disable
 
 
