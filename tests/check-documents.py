@@ -170,15 +170,13 @@ def help_page(program):
             shared.setdefault(tuple(commands), []).append(one)
     several = "Options of several commands"
     parts = [
-        f"{top} \"Also\" names [{several.lower()}](#{anchor(several)}).",
-        "```\n" + first.replace(listed[0], f"Subcommands: {', '.join(said)}\n\n") + "\n```"
+        f"{top} [{several}](#{anchor(several)}) are at the end.", "```\n" + first.replace(listed[0], f"Subcommands: {', '.join(said)}\n\n") + "\n```"
     ]
     parts[-1] = "\n".join(folded(line) for line in parts[-1].splitlines())
     for command, text in said.items():
         own = option.sub(lambda one: "" if len(having[one[0]]) > 1 else one[0], text + "\n")
         own = re.sub(r"^\S[^\n]*:\n\n+(?=\S|\Z)", "", own.rstrip("\n") + "\n\n", flags=re.M).rstrip("\n")
-        also = [re.match(r"  (\S+)", one)[1].split(",")[-1] for one, commands in having.items() if len(commands) > 1 and command in commands]
-        parts.append(f"## {command}\n\n```\n{own}\n\n{folded('Also: ' + ', '.join(also))}\n```")
+        parts.append(f"## {command}\n\n```\n{own}\n```")
     parts.append(f"## {several}")
     for commands, options in sorted(shared.items(), key=lambda entry: -len(entry[0])):
         of = "all commands" if len(commands) == len(said) else ", ".join(commands)
