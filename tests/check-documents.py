@@ -99,7 +99,7 @@ def check_scenes(root):
 
 
 def variable_table(root):
-    """The table of variables.md, and the defaults that are plain values, from the declarations that fault.in reads."""
+    """The table of variables.md, from the declarations that fault.in reads."""
     sys.path.insert(0, str(root / "inputs"))
     from variables import cases, declared
     name_of_restart = {"-": "run", "noted": "run", "free": "settings", "fixed": "fault"}
@@ -112,26 +112,22 @@ def variable_table(root):
             return "(`" + default.replace("${", "").replace("}", "") + "`)"
         return "(none)" if default in ("", "-") else f"`{default}`"
 
-    rows, defaults = [], {one.name: one.default for one in declared() if not re.search(r"\$[({]", one.default)}
+    rows = []
     for one in declared():
         in_cases = "".join(f"; `{when}`: {said(value)}" for when, name, value in cases() if name == one.name)
         rows.append(f"| `{one.name}` | {said(one.default)}{in_cases} | {name_of_restart[one.restart]} | {one.unit} | {one.meaning} |")
     assert len(rows) > 40, rows
-    return "| variable | default | of | unit | meaning |\n|---|---|---|---|---|\n" + "\n".join(rows) + "\n", defaults
+    return "| variable | default | of | unit | meaning |\n|---|---|---|---|---|\n" + "\n".join(rows) + "\n"
 
 
 def check_variables(root, write):
-    table, defaults = variable_table(root)
+    table = variable_table(root)
     page = root / "inputs/variables.md"
     text = re.sub(r"(?m)^\| variable .*\n(\|.*\n)+", lambda _: table, page.read_text())
     if write:
         page.write_text(text)
     elif page.read_text() != text:
         problem(f"inputs/variables.md is not what fault.variables says: {Path(__file__).name} ... --write makes it")
-    others = dict(re.findall(r"^\| `(\w+)` \| `([^`]*)` \|", (root / "inputs/README.md").read_text(), re.M))
-    for name, said in others.items():
-        if said != defaults.get(name):
-            problem(f"inputs/README.md: {name} has the default {said}, fault.variables {defaults.get(name)}")
     for name in ("paper_*.ini", "science_*.ini") + tuple(p.name for p in (root / "inputs").glob("*.in")):
         if name not in (root / "inputs/README.md").read_text() and not re.match(r"fault_\d+\.in", name):
             problem(f"inputs/README.md: no {name}")
