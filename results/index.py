@@ -61,7 +61,5 @@ def files_table():
     """What the files are."""
     rows = []
     for patterns, what, made, study in FILES:
-        some = [name for name in files() if any(fnmatch(name, pattern) for pattern in patterns.split())]
-        size = sum((FOLDER / name).stat().st_size for name in some) / 1e6
-        rows.append([" ".join(f"`{pattern}`" for pattern in patterns.split()), what, f"`{made}`", study, f"{len(some)}", f"{size:.1f}"])
-    return ["files", "what they are", "made by", "study", "number", "MB"], rows
+        rows.append([" ".join(f"`{pattern}`" for pattern in patterns.split()), what, f"`{made}`", study])
+    return ["files", "what they are", "made by", "study"], rows

@@ -170,7 +170,7 @@ def help_page(program):
     ]
     parts[-1] = "\n".join(folded(line) for line in parts[-1].splitlines())
     for command, text in said.items():
-        own = option.sub(lambda one: "" if len(having[one[0]]) > 1 else one[0], text + "\n")
+        own = option.sub(lambda one: "" if len(having[one[0]]) > 1 else one[0], re.sub(r"\nUsage: .*", "", text) + "\n")
         own = re.sub(r"^\S[^\n]*:\n\n+(?=\S|\Z)", "", own.rstrip("\n") + "\n\n", flags=re.M).rstrip("\n")
         parts.append(f"## {command}\n\n```\n{own}\n```")
     parts.append(f"## {several}")
