@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "files/text.h"
 
@@ -64,13 +66,29 @@ constexpr struct {
     {of_other_magnitude,
      "mag magnitude mw mww mwc mwb mwr mwp ml mlv md mc mh mb mblg ms mj me xm"}};
 
-/// Position of a word in a list; npos: it is not there.
-std::size_t position(std::string_view words, std::string_view word) {
-  const std::string all = fmt::format(" {} ", words);
-  return word.empty() ? all.npos : all.find(fmt::format(" {} ", word));
+/// What a word stands for, and where it is in its list.
+struct Meaning {
+  int role;
+  std::size_t position;
+};
+using Meanings = std::multimap<std::string, Meaning, std::less<>>;
+
+Meanings meanings_of(bool short_names) {
+  Meanings out;
+  for (const auto &known : known_columns) {
+    const Fields words = split_blanks(short_names ? known.short_names : known.names);
+    for (std::size_t i = 0; i < words.size(); ++i) out.insert({words[i], {known.role, i}});
+  }
+  return out;
 }
-bool has_word(std::string_view words, std::string_view word) {
-  return position(words, word) != std::string_view::npos;
+const Meanings all_names = meanings_of(false), all_short_names = meanings_of(true);
+
+/// The first role of a name for which a condition holds.
+template <class Condition>
+std::optional<Meaning> find(const Meanings &names, std::string_view name, Condition &&holds) {
+  for (auto [at, end] = names.equal_range(name); at != end; ++at)
+    if (holds(at->second.role)) return at->second;
+  return {};
 }
 
 std::string plain(std::string_view text) {
@@ -113,16 +131,15 @@ std::optional<int> time_role(std::string_view name) {
   const std::string_view unit = name.substr(std::min(without.size() + 1, name.size()));
   const std::string inside = plain(unit.substr(0, unit.find_first_of(")]")));
   std::vector<std::string> names = {plain(name)};
-  if (inside.find_first_not_of("ymdhs") == inside.npos ||
-      has_word("utc gmt ut sec secs seconds min minutes", inside))
+  static const std::set<std::string> units = {"utc", "gmt", "ut", "sec", "seconds", "min"};
+  if (inside.find_first_not_of("ymdhs") == inside.npos || units.count(inside) > 0)
     names.push_back(plain(without));
   for (std::string one : names) {
     for (const char *pattern : {"hhmmss", "yyyymmdd", "ddmmyyyy", "mmddyyyy"})
       if (one.rfind(pattern, 0) == 0) one = pattern;
-    for (const auto &known : known_columns)
-      if (known.role < of_other_magnitude &&
-          (has_word(known.names, one) || has_word(known.names, bare(one))))
-        return known.role;
+    const auto of_time = [](int role) { return role < of_other_magnitude; };
+    for (const std::string &name_or_part : {one, bare(one)})
+      if (const auto known = find(all_names, name_or_part, of_time)) return known->role;
   }
   return {};
 }
@@ -134,11 +151,9 @@ std::optional<int> role_between(int before, std::string_view name, int after) {
     return role >= 0 && role < Part::number_of_parts &&
            (std::abs(role - part) == 1 || (part == Part::hour && role < part));
   };
-  for (const auto &known : known_columns)
-    if (has_word(known.short_names, plain(without_unit(name))) &&
-        (beside(before, known.role) || beside(after, known.role)))
-      return known.role;
-  return {};
+  const auto known = find(all_short_names, plain(without_unit(name)),
+                          [&](int role) { return beside(before, role) || beside(after, role); });
+  return known ? std::optional(known->role) : std::nullopt;
 }
 
 std::optional<double> decimal_year(std::string_view text) {
@@ -204,17 +219,20 @@ Columns::Columns(const Fields &names) {
     const auto rank = [](int role) { return role == of_text ? -2 : role == of_date ? -1 : role; };
     return rank(a.role) < rank(b.role);
   });
-  for (const auto &known : known_columns) {
-    if (known.role < of_other_magnitude) continue;
-    std::size_t least = std::string_view::npos, best = 0;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::size_t at = position(known.names, plain(without_unit(names[i])));
-      if (roles_[i] != no_role || at == std::string_view::npos) continue;
-      if (known.role == of_other_magnitude) roles_[i] = known.role;
-      if (at < least) least = at, best = i;
-    }
-    if (known.role >= of_field && least != std::string_view::npos) roles_[best] = known.role;
-  }
+  // Of each field, the column whose name comes first in the list.
+  std::set<std::tuple<int, std::size_t, std::size_t>> fields;
+  const auto look_up = [&](std::size_t i, auto &&condition) {
+    return roles_[i] == no_role ? find(all_names, plain(without_unit(names[i])), condition)
+                                : std::nullopt;
+  };
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto field = look_up(i, [](int role) { return role >= of_field; }))
+      fields.insert({field->role, field->position, i});
+  for (const auto &[role, position, column] : fields)
+    if (!has(role)) roles_[column] = role;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (look_up(i, [](int role) { return role == of_other_magnitude; }))
+      roles_[i] = of_other_magnitude;
 }
 
 bool Columns::has(int role) const {

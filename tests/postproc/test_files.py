@@ -273,15 +273,6 @@ def test_lines_have_a_limit(postproc, work):
     refused(small, "count long.csv.gz", "long.csv.gz: a line of more than 1048576 bytes", timeout=HOSTILE)
 
 
-def test_quakeml_may_be_one_long_line(postproc, work):
-    """Each part of the line is read only once."""
-    event = XML_EVENT.replace("\n", "").format(k=1, m=3)
-    with open("quakes.xml", "w") as file:
-        file.write(QUAKEML.replace("\n", "").format(events=event + " " * (60 << 20)))
-    run(postproc, "count quakes.xml --json n.json", timeout=HOSTILE)
-    assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == 1
-
-
 def test_pipe_without_reader_can_be_left(slider, work):
     os.mkfifo("pipe")
     with start(slider, CHAIN, "--catalogue pipe") as child:
@@ -310,59 +301,22 @@ def test_closed_standard_streams(slider, postproc, work):
 
 # ---------------------------------------------------------------- what others write
 
-QUAKEML = """<?xml version="1.0" encoding="UTF-8"?>
-<q:quakeml xmlns:q="http://quakeml.org/xmlns/quakeml/1.2" xmlns:b="http://quakeml.org/xmlns/bed/1.2">
-<b:eventParameters publicID="quakeml:x/1">{events}</b:eventParameters></q:quakeml>
-"""
-XML_EVENT = """<b:event publicID="quakeml:x/{k}"><b:type>earthquake</b:type>
-<b:origin publicID="o{k}"><b:time><b:value>20{k:02d}-01-01T00:00:00Z</b:value></b:time><b:latitude><b:value>30</b:value></b:latitude>
-<b:longitude><b:value>-120</b:value></b:longitude></b:origin>
-<b:magnitude publicID="m{k}"><b:mag><b:value>{m}</b:value></b:mag></b:magnitude></b:event>
-"""
-MAGNITUDES = [2.0 + k / 10 for k in range(12)]
-FORMATS = {
-    "comcat": "time,latitude,longitude,depth,mag,type\n" + "".join(f"20{k:02d}-01-01T00:00:00Z,30,-120,5,{m:.1f},earthquake\n"
-                                                                   for k, m in enumerate(MAGNITUDES)),
-    "zmap": "".join(f"-120 30 20{k:02d} 1 1 {m:.1f} 5 0 0 0\n" for k, m in enumerate(MAGNITUDES)),
-    "quakeml": QUAKEML.format(events="".join(XML_EVENT.format(k=k, m=m) for k, m in enumerate(MAGNITUDES))),
-    "fdsn": "#EventID | Time | Latitude | Longitude | Depth/km | MagType | Magnitude\n" +
-    "".join(f"{k}|20{k:02d}-01-01T00:00:00|30|-120|5|ML|{m:.1f}\n" for k, m in enumerate(MAGNITUDES)),
-    "geojson": '{"type": "FeatureCollection", "features": [\n' +
-    ",\n".join(f'{{"properties": {{"mag": {m:.1f}, "time": {(10957 + 365 * k + (k + 3) // 4) * 86400000}, "type": "earthquake"}}, '
-               '"geometry": {"coordinates": [-120, 30, 5]}}' for k, m in enumerate(MAGNITUDES)) + "]}\n",
-}
 
-
-@pytest.mark.parametrize("name", FORMATS)
-def test_earthquakes_in_any_dress(postproc, work, name):
-    """With line ends of Unix, Windows and old Macintoshes, with and without a byte order mark, and from a pipe, which is read once."""
-    dressed = [mark + FORMATS[name].replace("\n", end).encode() for mark in (b"", b"\xef\xbb\xbf") for end in ("\n", "\r\n", "\r")]
-    for k, text in enumerate(dressed):
-        Path(f"{k}.txt").write_bytes(text)
-    Path("packed").write_bytes(gzip.compress(dressed[0]))
+def test_catalogues_from_pipes(postproc, work):
+    """Which are read once."""
+    Path("quakes.csv").write_text(QUAKES)
+    Path("packed").write_bytes(gzip.compress(QUAKES.encode()))
     piped = Program("postproc", "bash", "-c", '"$0" count <(cat packed) "$@"', postproc.path)
-    run(piped, *(f"{k}.txt" for k in range(len(dressed))), "--json n.json --size M2 --size M3.05")
-    dressed.append(dressed[0])
-    found = json.loads(Path("n.json").read_text())
-    assert [row["events"] for row in found["catalogues"]] == [len(MAGNITUDES)] * len(dressed)
-    assert [row["events"] for row in found["sizes"]] == [12, 1] * len(dressed)
-    assert all(abs(row["first_start"] - 10957.0) < 1e-6 for row in found["catalogues"])  # 2000-01-01
-
-
-def test_what_is_read_is_listed(postproc, work):
-    """A file of no known format, and one whose events mostly are something else."""
-    Path("events.csv").write_text("when,where\n1,2\n")
-    refused(postproc, "count events.csv", "events.csv:1: not a catalogue, expected '# lsm-catalogue 1' of a model, or earthquakes: columns")
-    Path("events.csv").write_text("time,lat,lon,mag,type\n" + "2000-01-01,1,1,2,quarry blast\n" * 3 + "2000-01-02,1,1,2,ke\n")
-    refused(postproc, "count events.csv", r"events.csv: 3 of 4 events are no earthquakes \(3 of type 'quarry blast'\)")
-    lenient = run(postproc, "count events.csv --lenient --json n.json")
-    assert "left out 3 of type 'quarry blast'" in lenient.err
-    assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == 1
+    run(piped, "quakes.csv --json n.json --size M2 --size M4.05")
+    piped, plain = json.loads(Path("n.json").read_text())["catalogues"]
+    assert piped["events"] == plain["events"] == 300 and piped["first_start"] == plain["first_start"]
 
 
 def test_files_that_are_no_table_are_named(postproc, work):
-    """Empty, packed, of two bytes a letter, or a pipe that was read before."""
+    """Of no known format, empty, packed, or of two bytes a letter."""
     names = "time,latitude,longitude,mag\n"
+    Path("events.csv").write_text("when,where\n1,2\n")
+    refused(postproc, "count events.csv", "events.csv:1: not a catalogue, expected '# lsm-catalogue 1' of a model, or earthquakes: columns")
     Path("events.csv").write_text("")
     refused(postproc, "count events.csv", "events.csv:1: empty file, expected '# lsm-catalogue 1' of a model, or earthquakes")
     Path("events.csv").write_bytes(b"PK\3\4 and more")
