@@ -132,22 +132,12 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
     while (old != end && *old < c) idle_.push_back(*old++);
     if (old != end && *old == c)
       ++old;
-    else {
+    else
       wake(c) = 0;
-      if (view_.ahead) find_forces(c, step);
-    }
   }
   idle_.insert(idle_.end(), old, end);
   list_.swap(next_list_);
   settle_idle(step);
-}
-
-// Forces after this step in a chunk that has been idle: a neighbour may start its blocks in the
-// next one, and how far they slip in it, without inertia, depends on the force before.
-void ActiveSet::find_forces(int c, std::int64_t step) {
-  const double plate = plate_step_ * static_cast<double>(step);
-  for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i)
-    view_.force[i] = view_.pull(i, plate);
 }
 
 // Removes the chunks in idle_ from the list until their wake step, or keeps them if it has come.

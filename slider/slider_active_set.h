@@ -42,7 +42,6 @@ class ActiveSet {
 
   std::int64_t wake_step(int chunk) const;
   void list_all();
-  void find_forces(int chunk, std::int64_t step);
   void rest_together(std::int64_t step);
   void change_list_to_next(std::int64_t step);
   void settle_idle(std::int64_t step);

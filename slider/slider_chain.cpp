@@ -39,7 +39,6 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   double *const limits = blocks_of(mu_, 1e300);
   std::copy(mu.begin(), mu.end(), limits);
   view.mu = limits;
-  view.stiffness = stiffness_alone(p);
   if (p.scheme == Scheme::adams_bashforth) view.ahead = blocks_of(ahead_, 0.0);
   if (!p.by_springs()) {
     view.forces = forces_.get();
@@ -103,12 +102,6 @@ void Chain::take_step() {
       if (u[l] >= end[l] && draw_strength(static_cast<int>(i) + l))
         active_.hot()[k] = static_cast<std::uint8_t>(active_.hot()[k] | 1U << l);
   }
-}
-
-double Chain::kinetic() const {
-  LSM::NeumaierSum sum;
-  for (int i = 0; i < view_.blocks; ++i) sum.add(0.5 * view_.mass * view_.v[i] * view_.v[i]);
-  return sum.value();
 }
 
 void Chain::keep_chunks() {

@@ -38,8 +38,6 @@ class Chain {
   double dpe() const { return account_.change(); }         ///< change of PE over the last step
   double slip_sum() const { return account_.slip_sum(); }  ///< sum of all displacements
   std::int64_t moved() const { return moved_; }
-  double radiated() const { return account_.radiated(); }  ///< energy radiated since step 0
-  double kinetic() const;
 
   /// Displacements and velocities, one per block.
   std::vector<double> displacements() const { return {view_.u, view_.u + view_.blocks}; }

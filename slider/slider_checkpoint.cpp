@@ -17,7 +17,7 @@ namespace Slider {
 
 namespace {
 
-constexpr int version = 7;
+constexpr int version = 8;
 constexpr const char *title = "slider_cli checkpoint ";
 
 /// The key if a run that continues may change its value, otherwise "".
@@ -65,10 +65,8 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   int found_version = 0;
   std::uint32_t sum = 0;
   words >> found_version >> sum;
-  const bool cbor = head.rfind("\xa3\x65\x63rc32", 0) == 0;  // until version 5
-  if (cbor || (found_version > 0 && found_version != version))
-    throw std::runtime_error(path + ": checkpoint of version " +
-                             (cbor ? "5 or before" : std::to_string(found_version)) +
+  if (found_version > 0 && found_version != version)
+    throw std::runtime_error(path + ": checkpoint of version " + std::to_string(found_version) +
                              ", expected version " + std::to_string(version) +
                              ": finish that run with the program that started it, or start anew");
   const std::size_t end = run.find("\n\n");

@@ -197,23 +197,23 @@ class Creep {
     constexpr int tries = 9;
     for (int k = 0; k < tries; ++k) {
       const double s = (low + (high - low) * k / (tries - 1)) / (2.0 * p_.mass);
-      if (!holds(first, length, s, s, softer)) return true;
+      if (!holds(first, length, s, softer)) return true;
     }
     return false;
   }
 
-  /// Whether M s^2 + K softer - w mu is positive definite on a group, that is, has positive pivots.
-  bool holds(int first, int length, double s, double w, double softer) const {
+  /// Whether M s^2 + K softer - s mu is positive definite on a group, that is, has positive pivots.
+  bool holds(int first, int length, double s, double softer) const {
     const double inertia = p_.mass * s * s, kc = softer * p_.kc, kl = softer * p_.kl;
     if (length == n_) {
       // On a ring it suffices that this holds for the leaf springs alone.
       for (int i = 0; i < n_; ++i)
-        if (!(kl + inertia - w * mu_[i] > 0.0)) return false;
+        if (!(kl + inertia - s * mu_[i] > 0.0)) return false;
       return true;
     }
     double pivot = never;
     for (int k = 0; k < length; ++k) {
-      pivot = 2.0 * kc + kl + inertia - w * mu_[(first + k) % n_] - kc * kc / pivot;
+      pivot = 2.0 * kc + kl + inertia - s * mu_[(first + k) % n_] - kc * kc / pivot;
       if (!(pivot > 0.0)) return false;
     }
     return true;

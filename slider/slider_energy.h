@@ -28,7 +28,6 @@ struct ChainState {
   double pe_anchor = 0.0, loading_anchor = 0.0;  ///< PE and sum (X - U_i) at quiet_since
   std::int64_t moved = 0;  ///< steps in which a block moved, summed over blocks
   double dpe = 0.0;        ///< change of PE over the last step
-  double radiated = 0.0, radiated_compensation = 0.0;
   std::vector<double> u, v;
   /// Slips in the next step, for the scheme without inertia; empty: from the present velocities.
   std::vector<double> ahead;
@@ -36,8 +35,7 @@ struct ChainState {
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     state(self.step, self.slip_sum, self.slip_compensation, self.pe_sum, self.pe_compensation,
-          self.quiet_since, self.pe_anchor, self.loading_anchor, self.moved, self.dpe,
-          self.radiated, self.radiated_compensation);
+          self.quiet_since, self.pe_anchor, self.loading_anchor, self.moved, self.dpe);
     for (auto *values : {&self.u, &self.v, &self.ahead}) state.list(*values);
   }
 };
@@ -73,7 +71,6 @@ class PeAccount {
   double value() const { return value_; }
   double change() const { return change_; }          ///< over the last step
   double slip_sum() const { return slip_.value(); }  ///< sum of all displacements
-  double radiated() const { return radiated_.value(); }
   /// Whether nothing moves at present.
   bool quiet() const { return quiet_since_ >= 0; }
   /// Change over a quiet step that starts at the given step.
@@ -99,7 +96,6 @@ class PeAccount {
       quiet_since_ = -1;
     }
     slip_.add(sums.slip);
-    radiated_.add(sums.radiated);
     change_ = 0.5 * kl_ * plate_step_ * (loading_before + loading(step)) - sums.work;
     pe_.add(change_);
     value_ = pe_.value();
@@ -120,8 +116,6 @@ class PeAccount {
   void save(ChainState &s) const {
     s.slip_sum = slip_.sum();
     s.slip_compensation = slip_.compensation();
-    s.radiated = radiated_.sum();
-    s.radiated_compensation = radiated_.compensation();
     s.pe_sum = pe_.sum();
     s.pe_compensation = pe_.compensation();
     s.quiet_since = quiet_since_;
@@ -132,7 +126,6 @@ class PeAccount {
   void restore(const ChainState &s) {
     slip_ = LSM::NeumaierSum(s.slip_sum, s.slip_compensation);
     pe_ = LSM::NeumaierSum(s.pe_sum, s.pe_compensation);
-    radiated_ = LSM::NeumaierSum(s.radiated, s.radiated_compensation);
     quiet_since_ = s.quiet_since;
     anchor_ = s.pe_anchor;
     loading_anchor_ = s.loading_anchor;
@@ -154,7 +147,7 @@ class PeAccount {
   }
 
   double kl_, plate_step_, blocks_;
-  LSM::NeumaierSum slip_, pe_, radiated_;
+  LSM::NeumaierSum slip_, pe_;
   double value_ = 0.0, change_ = 0.0;
   std::int64_t quiet_since_ = -1;
   double anchor_ = 0.0, loading_anchor_ = 0.0;

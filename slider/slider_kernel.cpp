@@ -93,80 +93,27 @@ struct Balance {
 // strength, and one that will stop slips only until then: the times of starts and stops are
 // computed, as the scheme would be of order 1 without them.
 // \param old forces at the beginning of the step
-// \param moved slips during the step
 // \param slides blocks that have slid throughout the step
-template <Law law>
 inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Register m,
-                                                      Register old, Register f, Register moved,
-                                                      Mask slides) {
+                                                      Register old, Register f, Mask slides) {
   const Register zero = {}, one = zero + 1.0;
   const double by_radiation = 1.0 / chain.radiation;
   const Register next = slides ? f + (f - old) : f;
-  Register v, part = one, mean;
-  Mask stops;
-  if constexpr (law == Law::velocity_weakening) {
-    const Register b = by_radiation * m, c_next = by_radiation * next;
-    // A block at rest with f <= m stays at rest, even if there is a velocity in balance as well.
-    v = velocity_at(by_radiation * f, b);
-    v = (slides | (f > m)) ? v : zero;
-    // No block slides more slowly than this, as the force needed would grow as velocity falls.
-    Register slowest = zero;
-    if (bits(b > one) != 0) {
-      const Register root = square_root(b);
-      slowest = root > one ? root - one : zero;
-    }
-    const auto force_per_velocity = [&](Register w) __attribute__((always_inline)) {
-      const Register slope = one - b / ((one + w) * (one + w));
-      return slope > zero ? slope : zero;
-    };
-    // Time until a block stops, in units of the time step, by Simpson's rule over the velocity,
-    // which as a function of time has a vertical tangent there. The force falls because of the
-    // block's own slip, and less so because of the slips of others.
-    const double own = chain.dt * chain.stiffness;
-    const Register others = (f - old) + chain.stiffness * moved;
-    Register middle = 0.5 * (v + slowest), last = slowest;
-    const Register fall = own * v - others, later = own * middle - others,
-                   least = own * last - others;
-    Register p = force_per_velocity(v);
-    // Few blocks stop, and divisions are the most expensive operations here.
-    stops = slides & (fall > zero) & (later > zero) & (least > zero);
-    if (bits(stops) != 0) {
-      const Register q = 4.0 * force_per_velocity(middle), r = force_per_velocity(last);
-      const Register stop = (p / fall + q / later) + r / least;
-      part = (chain.radiation / 6.0) * (v - slowest) * stop;
-      stops &= part < one;
-    }
-    const Register course = velocity_at(c_next, b);
-    last = (stops | (course < slowest)) ? slowest : course;
-    middle = 0.5 * (v + last);
-    Register q = 4.0 * force_per_velocity(middle), r = force_per_velocity(last);
-    if (bits(stops) != 0) {
-      p = stops ? p / fall : p;
-      q = stops ? q / later : q;
-      r = stops ? r / least : r;
-    }
-    const Register sum = (p + q) + r;
-    mean = sum > zero ? ((p * v + q * middle) + r * last) / sum : middle;
-    part = stops ? part : one;
-  } else {
-    v = by_radiation * (f - friction<law>(chain, m, slides ? one : zero, f));
-    v = v > zero ? v : zero;
-    const Register last = by_radiation * (next - friction<law>(chain, m, v, f));
-    stops = last < zero;
-    if (bits(stops) != 0) part = stops ? v / (v - last) : one;
-    mean = stops ? 0.5 * v : 0.5 * (v + last);
-  }
-  Register late = zero;
+  Register v = by_radiation * (f - friction<Law::coulomb>(chain, m, slides ? one : zero, f));
+  v = v > zero ? v : zero;
+  const Register last = by_radiation * (next - friction<Law::coulomb>(chain, m, v, f));
+  const Mask stops = last < zero;
+  Register part = one, late = zero;
+  // Few blocks stop or start, and divisions are the most expensive operations here.
+  if (bits(stops) != 0) part = stops ? v / (v - last) : one;
+  const Register mean = stops ? 0.5 * v : 0.5 * (v + last);
   if (bits((v > zero) & ~slides) != 0) late = slides ? zero : old < m ? (f - m) / (f - old) : one;
   const Register ahead = chain.dt * (part * mean + late * v);
   // A negative sign marks a slip that ends with a stop.
   return {v, v > zero ? (stops ? -ahead : ahead) : zero};
 }
 
-// How blocks are coupled, and whether they radiate.
-enum class Kind { springs, radiating_springs, modes, radiating_modes };
-
-template <Scheme scheme, Law law, Kind kind>
+template <Scheme scheme, Law law, bool by_modes, bool radiates = true>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
               std::uint8_t *hot_lanes) {
   const Register zero = {};
@@ -175,8 +122,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const double half_h = 0.5 * h;
   const double half_h_m = half_h / chain.mass;
   const double kc = chain.kc, kl = chain.kl;
-  constexpr bool by_modes = kind == Kind::modes || kind == Kind::radiating_modes,
-                 radiates = kind == Kind::radiating_springs || kind == Kind::radiating_modes;
   const double eta = chain.radiation;
   // The implicit half of a step is divided by this.
   [[maybe_unused]] const double slower = 1.0 / (1.0 + half_h_m * eta);
@@ -197,7 +142,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   constexpr unsigned ring = 8;  // more than lag
   static_assert(ring > lag);
   Lanes work = {}, slip = {};
-  [[maybe_unused]] Lanes radiated = {};
   // With modes, all chunks are listed.
   const auto place = [&](int k) __attribute__((always_inline)) {
     return static_cast<std::int64_t>(by_modes ? k : list[k]) * chunk_size;
@@ -224,7 +168,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       const Register next = x.r[r] + moved;
       change.r[r] = next - x.r[r];
       x.r[r] = next;
-      if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(u + i, x);
     return x;
@@ -262,10 +205,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       if constexpr (balances) {
         const Register planned = load_register(chain.ahead + i + r * SLIDER_LANES);
         const Mask slides = (v.r[r] > zero) & (planned >= zero);
-        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides);
+        const Balance now = balance(chain, m.r[r], old.r[r], f.r[r], slides);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
-        // Until it stops, a block has been about as fast as at the beginning of the step.
-        radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
         v.r[r] = now.v;
       } else if constexpr (scheme == Scheme::verlet && law == Law::velocity_weakening) {
         // w = v_half + h/2 (f - mu / (1 + w) - eta w) / m is quadratic in w.
@@ -276,14 +217,13 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         }
         v.r[r] = velocity_at(c, b);
       } else if constexpr (scheme == Scheme::verlet) {
-        Register w = v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r]));
-        if constexpr (radiates) w *= slower;
+        const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r]);
+        const Register w = slower * (v.r[r] + half_h_m * push);
         v.r[r] = w > zero ? w : zero;
       }
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
       if constexpr (!by_modes) slip.r[r] += change.r[r];
-      if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(force + i, f);
     if constexpr (scheme == Scheme::verlet || balances) store(velocity + i, v);
@@ -351,33 +291,23 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
 
   sums.work = 0.5 * sum(work);
   sums.slip = sum(slip);
-  if constexpr (radiates) sums.radiated = 0.5 * eta * sum(radiated);
   return sums;
 }
 
-template <Law law, Kind kind>
-StepFunction of_scheme(Scheme scheme) {
-  if (scheme == Scheme::verlet) return step<Scheme::verlet, law, kind>;
-  if constexpr (kind == Kind::radiating_springs || kind == Kind::radiating_modes)
-    if (scheme == Scheme::adams_bashforth) return step<Scheme::adams_bashforth, law, kind>;
-  // As printed the scheme is that of the paper's chain.
-  if constexpr (law == Law::velocity_weakening && kind == Kind::springs)
-    if (scheme == Scheme::printed) return step<Scheme::printed, law, kind>;
-  return nullptr;
-}
-
-template <Law law>
-StepFunction of_law(const Parameters &p) {
-  if (p.by_springs())
-    return p.radiation > 0.0 ? of_scheme<law, Kind::radiating_springs>(p.scheme)
-                             : of_scheme<law, Kind::springs>(p.scheme);
-  return p.radiation > 0.0 ? of_scheme<law, Kind::radiating_modes>(p.scheme)
-                           : of_scheme<law, Kind::modes>(p.scheme);
+template <bool by_modes>
+StepFunction verlet_of(const Parameters &p) {
+  constexpr Law weakening = Law::velocity_weakening;
+  if (p.friction.law == Law::coulomb) return step<Scheme::verlet, Law::coulomb, by_modes>;
+  // The paper's chain does not pay for radiation.
+  return p.radiation > 0.0 ? step<Scheme::verlet, weakening, by_modes>
+                           : step<Scheme::verlet, weakening, by_modes, false>;
 }
 
 StepFunction function_of(const Parameters &p) {
-  return p.friction.law == Law::coulomb ? of_law<Law::coulomb>(p)
-                                        : of_law<Law::velocity_weakening>(p);
+  if (p.scheme == Scheme::printed)
+    return step<Scheme::printed, Law::velocity_weakening, false, false>;
+  if (p.scheme == Scheme::adams_bashforth) return step<Scheme::adams_bashforth, Law::coulomb, true>;
+  return p.by_springs() ? verlet_of<false>(p) : verlet_of<true>(p);
 }
 
 }  // namespace Slider::SLIDER_SET

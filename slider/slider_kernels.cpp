@@ -36,14 +36,12 @@ InstructionSet widest_instruction_set() {
 
 StepFunction step_function(const Parameters &p, InstructionSet set) {
   if (!has(set)) throw std::invalid_argument(std::string("no instruction set ") + to_string(set));
-  StepFunction function = nullptr;
+  check_scheme(p);
 #ifdef __x86_64__
-  if (set == InstructionSet::avx512) function = avx512::function_of(p);
-  if (set == InstructionSet::avx2) function = avx2::function_of(p);
+  if (set == InstructionSet::avx512) return avx512::function_of(p);
+  if (set == InstructionSet::avx2) return avx2::function_of(p);
 #endif
-  if (set == InstructionSet::baseline) function = baseline::function_of(p);
-  if (!function) throw std::invalid_argument(scheme_needs);
-  return function;
+  return baseline::function_of(p);
 }
 
 }  // namespace Slider

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_kernels.h
-/// One time step of listed chunks of blocks, for each scheme and law, with springs or modes.
+/// One time step of listed chunks of blocks, for each scheme, law and coupling that fit together.
 /// It is compiled for several instruction sets, which agree to the last digit: operations are
 /// grouped in fixed lanes, whatever the width of the registers, and contraction is off.
 #ifndef SLIDER_KERNELS_H
@@ -23,7 +23,6 @@ struct ChainView : Parameters {
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
   const double *mu = nullptr;  ///< static coefficient
-  double stiffness = 0.0;      ///< that a block feels while all others rest
   double *ahead = nullptr;     ///< without inertia: slip in the next step; < 0: it stops after it
   // With modes only:
   ModeForces *forces = nullptr;
@@ -40,10 +39,9 @@ struct ChainView : Parameters {
 
 /// Sums over the listed chunks in one step.
 struct StepSums {
-  double work = 0.0;      ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
-  double slip = 0.0;      ///< sum du
-  double radiated = 0.0;  ///< sum radiation (v_old + v_new) du / 2
-  std::int64_t hot = 0;   ///< number of blocks that move or are about to move
+  double work = 0.0;     ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
+  double slip = 0.0;     ///< sum du
+  std::int64_t hot = 0;  ///< number of blocks that move or are about to move
 };
 
 /// Takes one step of the listed chunks (ascending, without duplicates) to the plate position x_new.

@@ -42,10 +42,6 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   j["mean_slip"] = r.mean_slip;
   j["pe"] = r.pe;
   j["pe_direct"] = r.pe_direct;
-  if (s.run.parameters.radiation > 0.0) {
-    j["kinetic"] = r.kinetic;
-    j["radiated"] = r.radiated;
-  }
   j["moving_fraction"] = static_cast<double>(r.moved) / (steps * s.run.parameters.blocks);
   j["steps_jumped"] = r.jumped;
   if (s.run.leap_speed > 0.0) {

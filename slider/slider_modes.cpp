@@ -3,20 +3,9 @@
 
 #include <fftw3.h>
 
-#include <mutex>
 #include <stdexcept>
 
 namespace Slider {
-
-namespace {
-
-// FFTW allows several threads to execute plans at the same time, but not to create them.
-std::mutex &planner() {
-  static std::mutex one;
-  return one;
-}
-
-}  // namespace
 
 ModeForces::ModeForces(const std::vector<double> &modes, int blocks) : blocks_(blocks) {
   if (modes.size() != static_cast<std::size_t>(blocks / 2 + 1))
@@ -30,13 +19,11 @@ ModeForces::ModeForces(const std::vector<double> &modes, int blocks) : blocks_(b
   arrays_ = {apart_.data(), spectrum_.data(), factors_.data(), static_cast<int>(factors_.size()),
              coupling_.data()};
   auto *const spectrum = reinterpret_cast<fftw_complex *>(spectrum_.data());
-  const std::lock_guard<std::mutex> lock(planner());
   forward_ = fftw_plan_dft_r2c_1d(blocks, apart_.data(), spectrum, FFTW_ESTIMATE);
   backward_ = fftw_plan_dft_c2r_1d(blocks, spectrum, coupling_.data(), FFTW_ESTIMATE);
 }
 
 ModeForces::~ModeForces() {
-  const std::lock_guard<std::mutex> lock(planner());
   fftw_destroy_plan(forward_);
   fftw_destroy_plan(backward_);
 }

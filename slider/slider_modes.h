@@ -27,9 +27,8 @@ struct ModeArrays {
 /// its value at q = 0, the leaf spring, which pulls towards the plate.
 ///
 /// Transforms are planned once, with FFTW_ESTIMATE: measured plans depend on the load of the
-/// machine, and so would the last digits of the results. Different threads may construct, use and
-/// destroy different objects at the same time. Any number of blocks is allowed; those with small
-/// prime factors are fastest.
+/// machine, and so would the last digits of the results. Any number of blocks is allowed; those
+/// with small prime factors are fastest.
 class ModeForces {
  public:
   /// \param modes stiffness of the modes 0 to blocks / 2

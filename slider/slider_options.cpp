@@ -77,7 +77,6 @@ class CommandLine {
   void add_model() {
     OptionGroup group(&app_, "Model (defaults are the paper's values)");
     group.add("--blocks", p_.blocks, "Number of blocks N");
-    group.add("--kc", p_.kc, "Spring between neighbours K_c (force/length)");
     CLI::Option *const kl = group.add("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
     group.add("--coupling", coupling_,
               "What couples the blocks: chain, the springs K_c (paper); † antiplane or "
@@ -85,7 +84,7 @@ class CommandLine {
               "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
               "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
               "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
-              "in place of K_c and K_l. Fastest with a number of blocks of small factors");
+              "in place of K_c = 1 and K_l. Fastest with a number of blocks of small factors");
     group.add("--width", strip_.width,
               "Thickness of each elastic block, which gives K_l (in blocks) †", shown("from --kl"),
               excludes(kl));
@@ -95,7 +94,7 @@ class CommandLine {
     group.add("--mass", p_.mass,
               "Mass of a block M. Friction is a force, divided by M as that of the springs; "
               "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
-              "needs --radiation");
+              "needs --radiation, --law coulomb and a --coupling other than chain");
     group.add("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
     group.add("--friction-range", friction_,
               "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)", LSM::values(2));
@@ -149,9 +148,6 @@ class CommandLine {
         "long chains, and ruptures can overlap in time; their size is the work of the springs on "
         "the blocks, they are written in the order in which they end, and the options of the "
         "picker do not apply");
-    group.add("--rupture-gap", rupture_gap_,
-              "With --events ruptures: time for which a block at rest still connects, in "
-              "addition to one time step (time) †");
     picker_.prefix = "picker-";
     const LSM::PickerOptions::Added picker = picker_.add_to(group);
     shown("exponential")(*picker.reading);
@@ -240,8 +236,6 @@ class CommandLine {
     const Law law = p_.friction.law;
     if (given("--dynamic-friction") && law == Law::velocity_weakening)
       throw std::invalid_argument("--dynamic-friction needs --law coulomb");
-    if (given("--rupture-gap") && run_.events != Events::ruptures)
-      throw std::invalid_argument("--rupture-gap needs --events ruptures");
     if (without_plate_drops_ && run_.events != Events::pe)
       throw std::invalid_argument("--without-plate-drops needs --events pe");
     run_.keep_by_plate = !without_plate_drops_;
@@ -255,23 +249,12 @@ class CommandLine {
       picker_.lambda = 0.99;
     }
     set_coupling();
-    if (p_.mass == 0.0) {
-      if (given("--scheme") && p_.scheme != Scheme::adams_bashforth)
-        throw std::invalid_argument(fmt::format(
-            "--scheme = {}, expected adams-bashforth with --mass 0", to_string(p_.scheme)));
-      p_.scheme = Scheme::adams_bashforth;
-    } else if (p_.scheme == Scheme::adams_bashforth) {
-      throw std::invalid_argument("--scheme adams-bashforth needs --mass 0");
-    }
+    if (p_.mass == 0.0 && !given("--scheme")) p_.scheme = Scheme::adams_bashforth;
     check(p_, unstable_);
     if (run_.leap_speed > 0.0 &&
         (!p_.by_springs() || p_.radiation > 0.0 || p_.landscape.length > 0.0))
       throw std::invalid_argument(
           "--leap needs --coupling chain without --radiation and --correlation-length");
-    // or ruptures would last over leaps
-    if (run_.leap_speed > 0.0 && rupture_gap_ > leap_calm)
-      refuse("--rupture-gap", rupture_gap_,
-             "at most " + fmt::format("{:g}", leap_calm) + " with --leap");
     for (const auto &[option, value] :
          {std::pair("--leap", run_.leap_speed), {"--warmup", run_.filter.warmup}})
       if (!(value >= 0.0) || !std::isfinite(value)) refuse(option, value, "a finite number >= 0");
@@ -282,10 +265,6 @@ class CommandLine {
     if (!picker_.says_lambda()) picker_.memory_time = 1.0;
     run_.picker = picker_.over(run_.picker, p_.dt);
     run_.filter = picker_.over(run_.filter);
-    const double gap = std::round(rupture_gap_ / p_.dt);
-    if (!(rupture_gap_ >= 0.0) || !(gap < 1e15))
-      refuse("--rupture-gap", rupture_gap_, "a number >= 0 and less than 1e15 time steps");
-    run_.rupture_memory = 1 + static_cast<std::int64_t>(gap);
     const double low = friction_[0], high = friction_[1];
     if (!(low >= 0.0) || !(high >= low) || !std::isfinite(high))
       throw std::invalid_argument(fmt::format(
@@ -312,16 +291,14 @@ class CommandLine {
         throw std::invalid_argument(
             fmt::format("--coupling = '{}', expected {}, or a readable file", coupling_,
                         LSM::choices(coupling)));
-      for (const char *option : {"--kc", "--kl"})
-        if (given(option))
-          throw std::invalid_argument(
-              fmt::format("{} and --coupling {} exclude each other", option, coupling_));
+      if (given("--kl"))
+        throw std::invalid_argument(
+            fmt::format("--kl and --coupling {} exclude each other", coupling_));
       p_.modes = read_modes(coupling_, p_.blocks);
       p_.kl = p_.modes.front();
     } else if (coupling != Coupling::chain) {
-      for (const auto &[option, value] : {std::pair("--kc", p_.kc),
-                                          {"--kl", p_.kl},
-                                          {"--width", given("--width") ? strip_.width : 1.0}})
+      for (const auto &[option, value] :
+           {std::pair("--kl", p_.kl), {"--width", given("--width") ? strip_.width : 1.0}})
         if (!std::isfinite(value) || !(value > 0.0))
           refuse(option, value, "a positive finite number");
       strip_ = given("--width") ? strip_of_width(coupling, p_.kc, strip_.width)
@@ -362,7 +339,7 @@ class CommandLine {
     add("leap", run_.leap_speed, leaps);
     add("leap_calm", leap_calm, leaps);
     add("events", to_string(run_.events), ruptures);
-    add("rupture_gap", rupture_gap_, ruptures);
+    add("rupture_gap", 0, ruptures);  // readers know this key
     add("picker", to_string(run_.picker.reading), !ruptures);
     add("lambda", run_.picker.lambda, !ruptures);
     add("min_size", run_.filter.min_size);
@@ -389,7 +366,7 @@ class CommandLine {
   std::vector<double> friction_ = {0.5, 1.0};
   std::string coupling_ = "chain";
   Strip strip_;
-  double time_ = 1e5, rupture_gap_ = 0.0;
+  double time_ = 1e5;
   CLI::Option *paper_option_ = nullptr;
   bool paper_ = false, unstable_ = false, without_plate_drops_ = false;
 };

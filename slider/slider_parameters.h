@@ -69,7 +69,7 @@ struct Landscape {
 /// Parameters of one chain, in model units (paper values unless marked †).
 struct Parameters {
   int blocks = 1928;
-  double kc = 1.0;         ///< coupling spring K_c
+  double kc = 1.0;         ///< coupling spring K_c, which has 1 in the paper: the unit of stiffness
   double kl = 0.01;        ///< leaf spring K_l
   double mass = 1.0;       ///< mass M of a block; 0: no inertia †
   double velocity = 0.01;  ///< driving velocity V_pl of the plate
@@ -90,15 +90,6 @@ inline double stiffness_of_springs(const Parameters &p, double phase) {
   return 2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl;
 }
 
-/// Stiffness that a block feels while all others rest.
-inline double stiffness_alone(const Parameters &p) {
-  if (p.by_springs()) return p.blocks > 1 ? 2.0 * p.kc + p.kl : p.kl;
-  double sum = 0.0;
-  for (int mode = 0; mode < p.blocks; ++mode)
-    sum += p.modes[static_cast<std::size_t>(std::min(mode, p.blocks - mode))];
-  return sum / p.blocks;
-}
-
 /// Time step above which the scheme is unstable for an undamped spring, or radiation alone would
 /// reverse velocities. The printed scheme is unstable at any step h (growth rate h w^2 / 4); its
 /// limit is the step at which this exceeds the dissipation by friction, 0.12 for the paper's
@@ -114,8 +105,20 @@ inline double stability_limit(const Parameters &p) {
   return damping > 0.0 ? std::min(limit, 2.0 / damping) : limit;
 }
 
-constexpr const char *scheme_needs =
-    "--scheme printed needs --coupling chain and --law velocity-weakening, without --radiation";
+/// Checks that there is a step for scheme, law and coupling.
+/// \throws std::invalid_argument naming the scheme and what it needs
+inline void check_scheme(const Parameters &p) {
+  const bool weakening = p.friction.law == Law::velocity_weakening;
+  if (p.scheme == Scheme::printed && (!weakening || !p.by_springs() || p.radiation > 0.0))
+    throw std::invalid_argument(
+        "--scheme printed needs --coupling chain and --law velocity-weakening, without "
+        "--radiation");
+  const bool balances = p.scheme == Scheme::adams_bashforth;
+  if (balances != (p.mass == 0.0) || (balances && (weakening || p.by_springs())))
+    throw std::invalid_argument(
+        "--mass 0 and --scheme adams-bashforth need each other, --law coulomb and a --coupling "
+        "other than chain");
+}
 
 /// Rejects the value of an option.
 /// \throws std::invalid_argument always, with one line: the option, its value and what is expected
@@ -131,7 +134,6 @@ constexpr const char *scheme_needs =
 /// \throws std::invalid_argument as refuse()
 inline void check(const Parameters &p, bool force) {
   if (p.blocks < 1 || p.blocks > 100000000) refuse("--blocks", p.blocks, "1 to 100000000");
-  if (!std::isfinite(p.kc) || p.kc < 0.0) refuse("--kc", p.kc, "a finite number >= 0");
   if (!std::isfinite(p.radiation) || p.radiation < 0.0)
     refuse("--radiation", p.radiation, "a finite number >= 0");
   if (!std::isfinite(p.mass) || p.mass < 0.0) refuse("--mass", p.mass, "a finite number >= 0");
@@ -145,9 +147,7 @@ inline void check(const Parameters &p, bool force) {
     if (!std::isfinite(value) || !(value > 0.0)) refuse(option, value, "a positive finite number");
   if (!(p.friction.dynamic >= 0.0 && p.friction.dynamic <= 1.0))
     refuse("--dynamic-friction", p.friction.dynamic, "at least 0 and at most 1");
-  if (p.scheme == Scheme::printed &&
-      (!p.by_springs() || p.radiation > 0.0 || p.friction.law != Law::velocity_weakening))
-    throw std::invalid_argument(scheme_needs);
+  check_scheme(p);
   const double limit = stability_limit(p);
   if (p.scheme == Scheme::printed) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)

@@ -226,7 +226,7 @@ class PeRun : public Run {
 class RuptureRun : public Run {
  public:
   explicit RuptureRun(const RunOptions &options)
-      : Run(options), tracker_(o_.parameters.blocks, o_.rupture_memory, o_.x_centroid) {}
+      : Run(options), tracker_(o_.parameters.blocks, 1, o_.x_centroid) {}
 
  private:
   void restore() override { tracker_.set_state(state_.ruptures, chain_.step()); }
@@ -336,8 +336,6 @@ RunResult Run::execute() {
   result_.steps = chain_.step();
   result_.moved = chain_.moved();
   result_.pe = chain_.pe();
-  result_.kinetic = chain_.kinetic();
-  result_.radiated = chain_.radiated();
   result_.pe_direct = direct_energy(o_.parameters, chain_.displacements(), chain_.plate());
   result_.mean_slip = chain_.slip_sum() / o_.parameters.blocks;
   result_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();

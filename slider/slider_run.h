@@ -34,9 +34,6 @@ struct RunOptions {
   Events events = Events::pe;
   LSM::PickerSettings picker;  ///< of drops of PE
   LSM::FilterSettings filter{0.0, false, 0.0};
-  /// Number of steps over which slips are connected, at least 1; events are found this many steps
-  /// after their end.
-  std::int64_t rupture_memory = 1;
   double leap_speed = 0.0;    ///< leap only while no block is faster than this; 0: no leaps
   bool keep_by_plate = true;  ///< write drops of PE that slip does not explain, see is_by_plate()
   bool dense = false;         ///< step all blocks, not only those that may move; for tests
@@ -72,7 +69,6 @@ struct RunResult : EventCounts {
   std::int64_t jumped = 0;                 ///< number of quiet steps that were jumped over
   std::int64_t leaps = 0, leapt = 0;       ///< number of leaps, and of the steps they replace
   double pe = 0.0, pe_direct = 0.0;        ///< at the end: by work, and summed over all springs
-  double kinetic = 0.0, radiated = 0.0;    ///< energies: at the end, and radiated until then
   double mean_slip = 0.0, seconds = 0.0;
   int interrupted = 0;  ///< signal number, or 0
 };

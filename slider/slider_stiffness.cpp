@@ -32,24 +32,6 @@ double mean_stiffness(Coupling coupling, double width) {
   return sum / (3.0 * pieces);
 }
 
-/// Reads lines of `columns` numbers and calls use(line reader, numbers) for each.
-template <std::size_t columns, class Use>
-void for_each_row(const std::string &path, const char *expected, const Use &use) {
-  LSM::files::LineReader in(path);
-  std::vector<std::string_view> fields;
-  for (std::string_view line; in.next(line);) {
-    line = LSM::text::trim(line.substr(0, line.find('#')));
-    if (line.empty()) continue;
-    LSM::text::split(line, fields);
-    std::array<double, columns> row{};
-    bool sound = fields.size() == columns;
-    for (std::size_t k = 0; sound && k < columns; ++k)
-      sound = LSM::text::parse(LSM::text::trim(fields[k]), row[k]);
-    if (!sound) in.fail(in_quotes(line) + ", expected " + expected);
-    use(in, row);
-  }
-}
-
 }  // namespace
 
 double strip_stiffness(Coupling coupling, double q, double width) {
@@ -98,14 +80,22 @@ std::vector<double> modes_of(Coupling coupling, const Strip &strip, int blocks) 
 
 std::vector<double> read_modes(const std::string &path, int blocks) {
   std::vector<std::array<double, 2>> table;
-  const char *const row =
-      "wavenumber,stiffness with wavenumbers that ascend from 0, stiffnesses > 0";
-  for_each_row<2>(path, row, [&](LSM::files::LineReader &in, const std::array<double, 2> &r) {
-    if (!(r[1] > 0.0) || (table.empty() ? r[0] != 0.0 : !(r[0] > table.back()[0])))
-      in.fail("wavenumber " + LSM::text::number(r[0]) + ", stiffness " + LSM::text::number(r[1]) +
-              ", expected " + row);
-    table.push_back(r);
-  });
+  LSM::files::LineReader in(path);
+  std::vector<std::string_view> fields;
+  for (std::string_view line; in.next(line);) {
+    line = LSM::text::trim(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    LSM::text::split(line, fields);
+    std::array<double, 2> row{};
+    bool sound = fields.size() == row.size();
+    for (std::size_t k = 0; sound && k < row.size(); ++k)
+      sound = LSM::text::parse(LSM::text::trim(fields[k]), row[k]);
+    if (!sound || !(row[1] > 0.0) || (table.empty() ? row[0] != 0.0 : !(row[0] > table.back()[0])))
+      in.fail(in_quotes(line) +
+              ", expected wavenumber,stiffness with wavenumbers that ascend from " +
+              "0, stiffnesses > 0");
+    table.push_back(row);
+  }
   // The file may round pi to a few digits.
   if (table.size() < 2 || table.back()[0] < LSM::pi * (1.0 - 1e-4))
     throw LSM::FileError(path + ": ends at wavenumber " +

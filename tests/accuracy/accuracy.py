@@ -25,7 +25,7 @@ from programs import Program, run  # noqa: E402
 
 PARTS = ("slider", "single events", "friction", "waves", "long runs", "leaps", "sums", "ruptures", "extremes")
 HOURS = 24 * 3600  # no part takes as long
-SCHEMES = ("printed", "semi-implicit", "verlet", "rk4")
+SCHEMES = ("printed", "verlet", "rk4")
 METHODS = {"located": "onset located", "step": "onset at the step", "force": "viscosity as a force", "floor 0.04": "masses of at least 0.04",
            "floor 0.09": "masses of at least 0.09"}  # yapf: disable
 # Okabe-Ito colours; each line has its own point type and dash as well.
@@ -138,8 +138,7 @@ def diagrams():
     for n, scheme in enumerate(SCHEMES, 1):
         profile.line("slider_event.csv", lambda row: row[1] == scheme, 3, 4, scheme, n, 2)
         size.line("slider_event.csv", lambda row: row[1] == scheme, 3, 5, scheme, n)
-        if scheme != "semi-implicit":
-            long.add("slider_long.csv", lambda row: row[1].startswith(scheme), "3:7:8", f"yerrorbars lt {n} title '{scheme}'")
+        long.add("slider_long.csv", lambda row: row[1].startswith(scheme), "3:7:8", f"yerrorbars lt {n} title '{scheme}'")
     growth = Diagram(
         "slider_growth", "set title 'Growth of an undamped oscillation'\nset xlabel 'time step'; "
         "set ylabel 'growth rate of the amplitude (1/time)'; set yrange [1e-9:1]")

@@ -137,7 +137,7 @@ def test_online(do, slider, picker):
 
 def test_pick_from_a_run_that_counts_other_events(do, slider):
     """All drops are picked, so that the header must not say that events are ruptures, or drops by the plate left out."""
-    for name, more in ("r", "--events ruptures --rupture-gap 0.1"), ("p", "--without-plate-drops"):
+    for name, more in ("r", "--events ruptures"), ("p", "--without-plate-drops"):
         run(slider, f"--blocks 64 --velocity 0.1 --warmup 0 --steps 60000 --catalogue {name}.csv --pe-series {name}.pe", more)
         assert {"events", "plate_drops"} & set(header(f"{name}.csv"))
         do(f"pick {name}.pe -o {name}-picked.csv")

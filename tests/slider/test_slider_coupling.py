@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The program slider_cli: coupling of the blocks, radiation."""
-import json
 import math
 import re
-import signal
-from pathlib import Path
 
 import pytest
 from data_files import header, rows, same_bytes
-from programs import INPUTS, changed, interrupt, run
+from programs import INPUTS, run
 
 SHORT = "--blocks 64 --kl 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 200000 "
 
@@ -29,27 +26,6 @@ def test_header_has_what_couples(ran):
     ran(SHORT, "--catalogue d.csv")
     same_bytes("c.csv", "d.csv")
     assert not {"coupling", "radiation", "width"} & set(header("d.csv"))
-
-
-@pytest.mark.parametrize("way", [
-    "--coupling inplane --mass 0 --radiation 1.5 --law coulomb",
-    "--coupling antiplane --law coulomb --dynamic-friction 1 --correlation-length 0.5 --radiation 0.1"
-])
-def test_killed_and_resumed(slider, ran, way):
-    settings = SHORT.replace("200000", "1000000") + way + " --columns centroid,length --pe-stride 100 "
-    ran(settings, "--catalogue whole.csv --pe-series whole.pe --json whole.json")
-    part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 30011 --json part.json "
-    count = 0
-    for _ in range(3):
-        more = "--resume" if Path("part.chk").exists() else "--overwrite"
-        count += interrupt(slider, part, more, when=changed("part.chk"), by=signal.SIGKILL)
-    assert count >= 1
-    ran(part, "--resume")
-    same_bytes("whole.csv", "part.csv")
-    same_bytes("whole.pe", "part.pe")
-    assert len(rows("whole.csv")) >= 10
-    whole, again = (json.loads(Path(name).read_text()) for name in ("whole.json", "part.json"))
-    assert whole["radiated"] == again["radiated"] > 0
 
 
 def test_stiffness_of_the_lattice(lmp, ran):

@@ -9,7 +9,6 @@
 #include "read_catalogue.h"
 #include "slider_chain.h"
 #include "slider_creep.h"
-#include "slider_files.h"
 #include "slider_run.h"
 
 namespace Slider {
@@ -35,32 +34,6 @@ std::vector<double> displacements(Creep &creep, int blocks) {
   std::vector<double> u;
   for (int i = 0; i < blocks; ++i) u.push_back(creep.displacement(i));
   return u;
-}
-
-TEST(SliderCreep, RatesOfOneTwoAndAllBlocks) {
-  const Parameters p = even(6);
-  const std::vector<double> mu = {0.9, 0.5, 0.502, 0.9, 0.95, 0.9}, u(6, 0.0);
-  Creep creep(p, mu.data(), u.data(), 49.0, never_fast);
-  EXPECT_EQ(creep.creeping(), 0);
-  EXPECT_NEAR(creep.next(), 1.0, 1e-12);
-  EXPECT_FALSE(creep.join());
-  // For block 1 alone, (2 K_c + K_l) r = K_l. Block 2 is loaded by the plate and by block 1.
-  const double alone = 0.01 / 2.01, joins = 1.0 + 0.002 / (0.01 + alone);
-  EXPECT_NEAR(creep.next(), joins, 1e-12);
-  creep.join();
-  EXPECT_NEAR(creep.displacement(1), alone * (joins - 1.0), 1e-14);
-  EXPECT_EQ(creep.displacement(2), 0.0);
-  // For both blocks, (K_c + K_l) r = K_l.
-  creep.to(joins + 1.0);
-  EXPECT_NEAR(creep.displacement(1), alone * (joins - 1.0) + 0.01 / 1.01, 1e-14);
-  EXPECT_NEAR(creep.displacement(2), 0.01 / 1.01, 1e-14);
-  EXPECT_EQ(creep.displacement(0), 0.0);
-  while (creep.next() < Creep::never) creep.join();
-  EXPECT_EQ(creep.creeping(), 6);
-  const double before = creep.displacement(4), way = creep.now().way;
-  creep.to(way + 3.0);
-  EXPECT_NEAR(creep.displacement(4), before + 3.0, 1e-12);
-  EXPECT_NEAR(creep.now().slope, 0.0, 1e-15);
 }
 
 TEST(SliderCreep, SolvesTheProblemOfFriction) {
@@ -328,27 +301,6 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
     ASSERT_EQ(chain.pe(), set.pe()) << n;
   }
   EXPECT_GT(chain.moved(), 1000);
-}
-
-TEST(SliderLeaps, DoNotDependOnWhatIsLookedAt) {
-  // The result depends neither on the kernel nor on a PE series with samples within the leaps.
-  RunOptions o = slow(64, 1e-3, 140.0);
-  o.leap_speed = 1e-3;
-  const std::string a = testing::TempDir() + "slider_leaps_a.csv",
-                    b = testing::TempDir() + "slider_leaps_b.csv";
-  o.catalogue = a;
-  const RunResult plain = run(o);
-  o.catalogue = b;
-  o.dense = true;
-  o.series = testing::TempDir() + "slider_leaps.pe";
-  o.series_stride = 50;
-  const RunResult looked_at = run(o);
-  EXPECT_EQ(text(a), text(b));
-  EXPECT_GT(plain.events, 5);
-  EXPECT_GT(plain.leaps, 3);
-  EXPECT_EQ(looked_at.leaps, plain.leaps);
-  EXPECT_EQ(looked_at.jumped, 0);
-  EXPECT_EQ(static_cast<std::int64_t>(pe_of(o.series).size()), o.steps / 50 + 1);
 }
 
 }  // namespace

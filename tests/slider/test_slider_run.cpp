@@ -8,12 +8,21 @@
 
 #include "files/pe_series.h"
 #include "read_catalogue.h"
-#include "slider_files.h"
 #include "slider_run.h"
-#include "switching_chain.h"
+#include "slider_ways.h"
 
 namespace Slider {
 namespace {
+
+// PE of every sample of a series.
+std::vector<double> pe_of(const std::string &path) {
+  LSM::PeSeriesReader series(LSM::files::open_plain(path));
+  std::vector<double> pe;
+  std::int64_t step = 0;
+  double time = 0.0, value = 0.0;
+  while (series.next(step, time, value)) pe.push_back(value);
+  return pe;
+}
 
 RunOptions options(int blocks, double dt, std::int64_t steps) {
   RunOptions o;
@@ -43,30 +52,76 @@ TEST(SliderRun, PureLoadingOverAThousandMillionSteps) {
   }
 }
 
-TEST(SliderRun, JumpingChangesNoEvent) {
-  // The dense kernel takes every step, the active one jumps through quiet loading.
+// A run, and what it must have at least.
+struct Kind {
+  RunOptions options;
+  std::int64_t events, jumped, leaps;
+};
+
+std::vector<Kind> kinds() {
+  std::vector<Kind> found;
   for (LSM::PickerReading reading : {LSM::PickerReading::exponential, LSM::PickerReading::average,
                                      LSM::PickerReading::literal}) {
     RunOptions o = options(24, 0.05, 2000000);
     o.parameters.kl = 0.2;
     o.picker.reading = reading;
-    const std::string a = testing::TempDir() + "slider_jump_a.csv",
-                      b = testing::TempDir() + "slider_jump_b.csv";
-    o.catalogue = a;
-    o.checkpoint = a + ".chk";
+    found.push_back({o, 20, 100000, 0});
+  }
+  for (const Events events : {Events::pe, Events::ruptures}) {
+    RunOptions o = options(48, 0.05, 400000);
+    o.parameters = coupled(Coupling::antiplane, 48, 0.05);
+    o.parameters.radiation = 0.1;
+    o.parameters.landscape.length = 3.0;
+    o.events = events;
+    if (events == Events::ruptures) o.header = {{"events", "ruptures"}};
+    found.push_back({o, 20, 1000, 0});
+  }
+  RunOptions o = options(64, 0.05, 2800000);
+  o.parameters.velocity = 1e-3;
+  o.leap_speed = 1e-3;
+  found.push_back({o, 5, 1000, 3});
+  return found;
+}
+
+TEST(SliderRun, JumpsPartsAndSeriesChangeNoByte) {
+  // The dense kernel takes every step, the active one jumps through quiet loading; a series has
+  // samples within leaps; a run is continued from checkpoints, unless leaps depend on its end.
+  for (Kind &kind : kinds()) {
+    RunOptions &o = kind.options;
+    const auto names = [&o](const char *which) {
+      o.catalogue = testing::TempDir() + "slider_run_" + which + ".csv";
+      o.checkpoint = o.catalogue + ".chk";
+    };
+    names("active");
     const RunResult active = run(o);
-    o.catalogue = b;
-    o.checkpoint = b + ".chk";
-    o.dense = true;
-    const RunResult dense = run(o);
-    EXPECT_GT(active.jumped, 100000);
-    EXPECT_EQ(dense.jumped, 0);
-    EXPECT_GT(active.events, 20);
-    EXPECT_EQ(active.dropped_nonpositive, dense.dropped_nonpositive);
-    EXPECT_EQ(text(a), text(b));
+    EXPECT_GT(active.events, kind.events);
+    EXPECT_GT(active.jumped, kind.jumped);
+    EXPECT_GE(active.leaps, kind.leaps);
+    EXPECT_NEAR(active.pe, active.pe_direct, 1e-9 * active.pe);
     // The whole state at the end: displacements, velocities, PE, picker.
-    EXPECT_GT(text(a + ".chk").size(), 500U);
-    EXPECT_EQ(text(a + ".chk"), text(b + ".chk"));
+    const std::string whole = text(o.catalogue), state = text(o.checkpoint);
+    EXPECT_GT(state.size(), 500U);
+    const std::int64_t end = o.steps;
+    names("dense");
+    o.dense = true;
+    o.series = testing::TempDir() + "slider_run.pe";
+    o.series_stride = 50;
+    const RunResult dense = run(o);
+    EXPECT_EQ(dense.jumped, 0);
+    EXPECT_EQ(dense.leaps, active.leaps);
+    EXPECT_EQ(dense.dropped_nonpositive, active.dropped_nonpositive);
+    EXPECT_EQ(text(o.catalogue), whole);
+    EXPECT_EQ(text(o.checkpoint), state);
+    EXPECT_EQ(static_cast<std::int64_t>(pe_of(o.series).size()), end / 50 + 1);
+    if (kind.leaps > 0) continue;
+    o.series.clear();
+    for (const std::int64_t steps : {end / 3, end}) {
+      o.steps = steps;
+      o.resume = steps == end;
+      run(o);
+    }
+    EXPECT_EQ(text(o.catalogue), whole);
+    EXPECT_EQ(text(o.checkpoint), state);
   }
 }
 
