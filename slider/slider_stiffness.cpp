@@ -61,8 +61,7 @@ Strip strip_of_leaf_spring(Coupling coupling, double kc, double kl) {
   while (missing(high) > 0.0 && high < 1e9) high *= 2.0;
   if (!(missing(low) > 0.0) || missing(high) > 0.0)
     throw std::invalid_argument(
-        "--kl and --kc leave no thickness of the elastic blocks from 0.001 "
-        "to 1e9 blocks, expected others");
+        "--kl leaves no thickness of the elastic blocks from 0.001 to 1e9 blocks, expected another");
   for (int k = 0; k < 100; ++k) {
     const double middle = 0.5 * (low + high);
     (missing(middle) > 0.0 ? low : high) = middle;
