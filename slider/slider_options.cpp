@@ -79,28 +79,26 @@ class CommandLine {
     group.add("--blocks", p_.blocks, "Number of blocks N");
     CLI::Option *const kl = group.add("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
     group.add("--coupling", coupling_,
-              "What couples the blocks: chain, the springs K_c (paper); † antiplane or "
-              "inplane, an elastic block on either side of the fault with the plate at its "
-              "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
-              "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
-              "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
-              "in place of K_c = 1 and K_l. Fastest with a number of blocks of small factors");
+              "What couples the blocks: chain, the springs K_c (paper); † antiplane or inplane, "
+              "an elastic block on either side of the fault (slider/laws-and-coupling.md); or a "
+              "file, lines 'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per "
+              "block), in place of K_c = 1 and K_l");
     group.add("--width", strip_.width,
               "Thickness of each elastic block, which gives K_l (in blocks) †", shown("from --kl"),
               excludes(kl));
     group.add("--radiation", p_.radiation,
-              "Force on a block per velocity by the waves that it sends out; G / 2 c_s for "
-              "shear waves into both sides (Rice 1993; force/velocity) †");
+              "Force on a block per velocity by the waves that it sends out, G / 2 c_s for shear "
+              "waves into both sides (Rice 1993; force/velocity) †");
     group.add("--mass", p_.mass,
-              "Mass of a block M. Friction is a force, divided by M as that of the springs; "
-              "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
-              "needs --radiation, --law coulomb and a --coupling other than chain");
+              "Mass of a block M, which divides friction, too (in Eq. 5 it is 1). 0: no inertia "
+              "(quasi-dynamic) †, needs --radiation, --law coulomb and a --coupling other than "
+              "chain");
     group.add("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
     group.add("--friction-range", friction_,
               "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)", LSM::values(2));
     group.add("--correlation-length", p_.landscape.length,
-              "The static coefficient of a block is drawn anew from --friction-range after "
-              "each slip of this length, as on a rough surface; 0: never (length) †");
+              "The static coefficient of a block is drawn anew after each slip of this length, as "
+              "on a rough surface; 0: never (length) †");
     LSM::add_seed(group, s_.seed, "Seed of the coefficients");
     group.choose("--law", p_.friction.law,
                  "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; † "
@@ -123,19 +121,16 @@ class CommandLine {
     group.add("--dt", p_.dt, "Time step h (time) †", not_paper);
     group.choose(
         "--scheme", p_.scheme,
-        "printed: Eqs. 7 and 8, order 1, for the paper's chain and Eq. 6 only, unstable in "
-        "the long run: warns above dt 0.01, refused at 0.12 and above; in the step in "
-        "which a block stops friction is what stops it, the acceleration -v/h, so that "
-        "Eq. 7 moves it by h v/2; † verlet (order 2), and without inertia (--mass 0) "
-        "always adams-bashforth",
+        "printed: Eqs. 7 and 8, order 1, for the paper's chain and Eq. 6 only, unstable in the "
+        "long run: warns above dt 0.01, refused at 0.12 and above; a block that stops in a step "
+        "moves by h v/2; † verlet (order 2), and without inertia (--mass 0) always "
+        "adams-bashforth",
         not_paper);
     group.flag("--unstable", unstable_, "Run the printed scheme above these limits");
     group.add(
         "--leap", run_.leap_speed,
-        "Slow loading without time steps, a leap †: once no block has been faster than this for 50 time "
-        "units, blocks at their limit creep without steps, in the limit of a slow plate, "
-        "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. "
-        "Model time and steps continue (length/time)");
+        "Slow loading without time steps, a leap †, once no block has been faster than this for "
+        "50 time units; 1e-3 is accurate for V up to 1e-3; 0: no leaps (length/time)");
   }
 
   void add_events() {
@@ -144,10 +139,8 @@ class CommandLine {
     group.choose(
         "--events", run_.events,
         "Definition of an event: pe, a drop of the PE of the whole chain (paper); ruptures, a set "
-        "of sliding blocks connected in space and time †. Ruptures far apart stay separate in "
-        "long chains, and ruptures can overlap in time; their size is the work of the springs on "
-        "the blocks, they are written in the order in which they end, and the options of the "
-        "picker do not apply");
+        "of sliding blocks connected in space and time †, whose size is the work of the springs "
+        "on the blocks; they can overlap in time, and are written in the order in which they end");
     picker_.prefix = "picker-";
     const LSM::PickerOptions::Added picker = picker_.add_to(group);
     shown("exponential")(*picker.reading);
@@ -159,10 +152,8 @@ class CommandLine {
     group.add("--warmup", run_.filter.warmup, "Drop events that start before this time (time) †",
               not_paper);
     group.flag("--without-plate-drops", without_plate_drops_,
-               "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the "
-               "plate has made and not slip: blocks that have slipped too far wait for it, and PE "
-               "falls meanwhile † (otherwise they are written and counted apart in --json, as "
-               "the paper does not tell them apart)");
+               "Leave out drops of PE larger than the largest mu_0 times slip_moment: blocks that "
+               "have slipped too far wait for the plate, and PE falls meanwhile †");
   }
 
   void take_columns(const std::string &list) {
@@ -181,8 +172,8 @@ class CommandLine {
     group.add("--catalogue", run_.catalogue, "Catalogue to write");
     group.call<std::string>(
         "--columns", [this](const std::string &list) { take_columns(list); },
-        "Further columns: centroid, length, or both separated by a comma; slip_moment (sum of the "
-        "slips of all blocks) is always written");
+        "Columns besides slip_moment (sum of the slips of all blocks): centroid, length, or both "
+        "separated by a comma");
     group.add("--pe-series", run_.series, "Series of PE to write (default: none)");
     add_whole(group, "--pe-stride", run_.series_stride, 1,
               "Steps between samples of the series (steps)");
@@ -191,14 +182,10 @@ class CommandLine {
                   "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
     add_whole(group, "--checkpoint-interval", run_.checkpoint_interval, 0,
               "Steps between checkpoints; 0: only when interrupted and at the end (steps)");
-    group.flag(
-        "--resume", run_.resume,
-        "Continue from the checkpoint, a finished run also for longer; the catalogue ends as "
-        "if never interrupted",
-        needs(checkpoint));
+    group.flag("--resume", run_.resume,
+               "Continue from the checkpoint, a finished run also for longer", needs(checkpoint));
     group.flag("--overwrite", run_.overwrite,
-               "Replace catalogue, series and checkpoint of an earlier run, which is refused "
-               "otherwise");
+               "Replace catalogue, series and checkpoint of an earlier run");
     group.add("--json", s_.summary, "JSON summary to write; - is standard output");
     group.flag("--progress", run_.progress, "Show the progress on standard error every second");
   }
