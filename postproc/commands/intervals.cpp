@@ -63,7 +63,6 @@ class Intervals : public Statistic {
     table.column("mean", "mean", &IntervalCurve::mean, 6);
     table.show("in", [](auto &curve) { return curve.sample.unit; });
     table.column("variation", "standard deviation / mean", &IntervalCurve::variation);
-    table.show("burstiness", &IntervalCurve::burstiness);
     for (const IntervalCurve &curve : curves) table.row(curve);
     return Table(std::move(table));
   }

@@ -102,7 +102,7 @@ struct Named {
 
 constexpr Named numbers[] = {
     {"variation", "variation (standard deviation / mean)", "independent", &Clustering::variation},
-    {"finite_burstiness", "burstiness, finite form", "independent", &Clustering::finite_burstiness},
+    {"finite_burstiness", "burstiness", "independent", &Clustering::finite_burstiness},
     {"memory", "memory coefficient", "shuffled", &Clustering::memory}};
 
 }  // namespace
@@ -129,8 +129,6 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
       [](auto &curve) { return curve.steadiness.departure; }, 2);
   table.column(
       "steady_p", "p of a steady rate", [](auto &curve) { return curve.steadiness.p; }, 2);
-  table.column(
-      "burstiness", "burstiness", [](auto &curve) { return curve.clustering.burstiness; }, 3);
   for (const Named &one : numbers) {
     const std::string name = one.column;
     const auto of = [number = one.number](const IntervalCurve &c) { return c.clustering.*number; };

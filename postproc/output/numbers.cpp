@@ -28,19 +28,7 @@ const char *model_name(std::string_view model) {
 }
 
 std::string text(const SmallestSize &smallest) {
-  const std::string size = short_number(smallest.size);
-  switch (smallest.origin) {
-    case SmallestSize::Origin::given:
-      return size + ", as given";
-    case SmallestSize::Origin::header:
-      return size + ", completeness in the header of " + smallest.source;
-    case SmallestSize::Origin::catalogue:
-      return fmt::format("{}, where {} begins", size,
-                         smallest.source.empty() ? "the catalogue" : smallest.source);
-    case SmallestSize::Origin::paper:
-      break;
-  }
-  return size + ", that of the paper's Figs. 12 and 13";
+  return short_number(smallest.size) + ", " + smallest.why;
 }
 
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables) {

@@ -71,7 +71,6 @@ Clustering clustering(const std::vector<double> &times, int replicas, std::uint6
     return {r, finite_burstiness(r, n), memory_of(series)};
   };
   const double r = variation_of(times);
-  out.burstiness = burstiness_of(r);
   const auto own = values_of(r, times);
   std::array<std::vector<double>, 3> chance;
   for (std::vector<double> &one : chance) one.resize(static_cast<std::size_t>(replicas));

@@ -36,7 +36,6 @@ struct AgainstChance {
 struct Clustering {
   /// Coefficient of variation r. Random series: independent exponential times.
   AgainstChance variation;
-  double burstiness = NAN;
   /// ((n + 1)^(1/2) r - (n - 1)^(1/2)) / (((n + 1)^(1/2) - 2) r + (n - 1)^(1/2)): 0 for independent
   /// times whatever n is, 1 if all events but one coincide. Random series: as for variation.
   AgainstChance finite_burstiness;

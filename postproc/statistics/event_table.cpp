@@ -48,11 +48,6 @@ std::vector<double> column_from(const EventTable &table, double least,
   return out;
 }
 
-std::int64_t events_from(const EventTable &table, double least) {
-  return std::count_if(table.events.begin(), table.events.end(),
-                       [least](const EventSummary &event) { return event.size >= least; });
-}
-
 void expect_events(const std::vector<EventTable> &tables) {
   std::int64_t by_time = 0, by_size = 0;
   for (const EventTable &table : tables) {
@@ -70,13 +65,13 @@ void expect_events(const std::vector<EventTable> &tables) {
 SmallestSize Threshold::of(const EventTable &table) const {
   SmallestSize smallest;
   if (given)
-    smallest = {*given, SmallestSize::Origin::given};
+    smallest = {*given, "as given"};
   else if (table.earthquakes())
-    smallest = {table.complete_from, SmallestSize::Origin::catalogue, table.label};
+    smallest = {table.complete_from, "where " + table.label + " begins"};
   else if (table.completeness > paper_threshold)
-    smallest = {table.completeness, SmallestSize::Origin::header, table.completeness_path};
+    smallest = {table.completeness, "completeness in the header of " + table.completeness_path};
   if (table.complete_from > smallest.size)
-    smallest = {table.complete_from, SmallestSize::Origin::catalogue};
+    smallest = {table.complete_from, "where the catalogue begins"};
   return smallest;
 }
 

@@ -73,7 +73,7 @@ struct EventTable {
     return bins.width >= 1e-4 ? std::log(size_of_magnitude(bins.width)) : 0.0;
   }
   /// Size whose logarithm is that of the centre of a bin.
-  double size_unit() const { return size_of_magnitude(bins.offset); }
+  double size_unit() const { return size_step() > 0.0 ? size_of_magnitude(bins.offset) : 1.0; }
   /// Unit of the times: "model time" or "days".
   const char *time_unit() const { return earthquakes() ? "days" : "model time"; }
 
@@ -99,25 +99,17 @@ std::vector<double> column(const std::vector<Row> &events, double Part::*number)
   return out;
 }
 
-/// The same for events of at least a given size, and the number of these events.
+/// The same for events of at least a given size.
 std::vector<double> column_from(const EventTable &table, double least,
                                 double EventSummary::*number);
-std::int64_t events_from(const EventTable &table, double least);
 
 /// \throws DegenerateData if no table has an event, with the number that the options left out
 void expect_events(const std::vector<EventTable> &tables);
 
 /// Size below which events are left out, and the reason for it.
 struct SmallestSize {
-  enum class Origin {
-    given,     ///< given by the user
-    paper,     ///< of the paper's Figs. 12 and 13
-    header,    ///< `completeness` in the header of the file `source`
-    catalogue  ///< smaller events are missing in the catalogue labelled `source`, or in this one
-  };
   double size = paper_threshold;
-  Origin origin = Origin::paper;
-  std::string source = {};
+  std::string why = "that of the paper's Figs. 12 and 13";
 };
 
 /// The smallest size that was asked for.

@@ -2,7 +2,6 @@
 #include "power_law.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_integration.h>
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
@@ -11,10 +10,8 @@
 #include <stdexcept>
 
 #include "files/text.h"
-#include "gsl_owners.h"
 #include "magnitudes.h"
 #include "monte_carlo.h"
-#include "numerics/sum.h"
 #include "sample.h"
 #include "samples.h"
 #include "truncated_family.h"
@@ -198,193 +195,82 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
 
 namespace {
 
-// A rival exp(b u - c T(u)) as a logarithm of its density.
-struct Tilted {
-  Statistic statistic;
-  TiltedFit fit = {};
-  double mean_u = 0.0, norm = 0.0;
+// Vuong's test of the power law against a rival in u = ln(x / lo), where the Jacobian of the change
+// of variables cancels; log_density: of the rival in u.
+template <class LogDensity>
+Comparison vuong(const char *name, std::vector<std::pair<std::string, double>> parameters,
+                 const Sample &u, const Exponential &law, const LogDensity &log_density) {
+  const auto advantage = [&, log_z = law.log_z()](double u_i) {
+    return law.b * u_i - log_z - log_density(u_i);
+  };
+  const double average = u.mean(advantage), n = u.n();
+  const double deviation =
+      std::sqrt(u.mean([&](double u_i) { return std::pow(advantage(u_i) - average, 2); }));
+  const double normalised = deviation > 0.0 ? std::sqrt(n) * average / deviation : 0.0;
+  return {name, std::move(parameters), n * average, normalised,
+          std::erfc(std::fabs(normalised) / std::sqrt(2.0))};
+}
 
-  double operator()(double u) const {
-    return statistic.rate > 0.0 ? fit.b * u - fit.c * std::exp(u) - norm
-                                : fit.b * u - fit.c * u * u - norm;
-  }
-  // Fits to means, and returns a number that no longer changes at the maximum.
-  auto fitting(double length) {
-    return [this, length](const auto &mean) {
-      mean_u = mean([](double u) { return u; });
-      const double mean_t = mean([this](double u) { return statistic(u); });
-      fit = fit_tilted(statistic, mean_u, mean_t, length);
-      norm = fit.b * mean_u - fit.c * mean_t - fit.log_likelihood;
-      return fit.b;
-    };
-  }
-  bool decided() const { return fit.converged && fit.c > 0.0; }
-};
-
-// Comparisons of a power law with other laws for the same sample, in u = ln(x / lower end). The
-// likelihood of a bin is the integral of the density over it, by the points of a quadrature; a
-// value that is known is a bin of a single point.
-class Contest {
- public:
-  Contest(const std::vector<double> &sorted, const PowerLawFit &fit)
-      : lo_(fit.lower_end()),
-        hi_(fit.upper_end()),
-        law_(fit, 1.0 - fit.alpha),
-        points_(fit.step > 0.0 ? most_points : 1) {
-    const std::vector<double> logs = logs_in(fit, sorted);
-    n_ = static_cast<double>(logs.size());
-    const Gsl<gsl_integration_glfixed_table> rule(gsl_integration_glfixed_table_alloc(points_),
-                                                  gsl_integration_glfixed_table_free);
-    for (auto at = logs.begin(); at != logs.end();) {
-      const auto end = points_ > 1 ? std::upper_bound(at, logs.end(), *at) : at + 1;
-      counts_.push_back(static_cast<double>(end - at));
-      const double u = *at - law_.lower, from = u - 0.5 * fit.step;
-      for (std::size_t i = 0; i < points_; ++i) {
-        u_.push_back(u);
-        weights_.push_back(1.0);
-        if (points_ > 1)
-          gsl_integration_glfixed_point(from, from + fit.step, i, &u_.back(), &weights_.back(),
-                                        rule.get());
-      }
-      at = end;
-    }
-  }
-
-  // In t = (x - lo) / width, an exponential has the same form as the power law in u.
-  Comparison exponential() const {
-    const bool finite = law_.of_u.finite();
-    const double width = finite ? hi_ - lo_ : lo_, scale = lo_ / width;
-    Exponential rival{};
-    double norm = 0.0;
-    const auto density = [&](double u) { return rival.b * std::expm1(u) * scale - norm + u; };
-    find(density, [&](const auto &mean) {
-      rival = Exponential::of_mean(mean([](double u) { return std::expm1(u); }) * scale,
-                                   finite ? 1.0 : infinity);
-      norm = rival.log_z() - std::log(scale);
-      return rival.b;
-    });
-    return vuong("exponential", {{"rate", -rival.b / width}}, density);
-  }
-
-  Comparison log_normal() const {
-    Tilted rival{{0.0}};
-    find(rival, rival.fitting(law_.of_u.length));
-    if (!rival.decided())
-      return undecided("log-normal", rival,
-                       "the best log-normal is its limit, the power law itself");
-    // Parameters of ln x: mu is that of the untruncated normal and may lie far below the range.
-    return vuong("log-normal",
-                 {{"mu", law_.lower + rival.fit.b / (2.0 * rival.fit.c)},
-                  {"sigma", 1.0 / std::sqrt(2.0 * rival.fit.c)}},
-                 rival);
-  }
-
-  Comparison cut_off() const {
-    const char *const name = "power law with exponential cut-off";
-    Tilted rival{{1.0}};
-    find(rival, rival.fitting(law_.of_u.length));
-    if (!rival.decided())
-      return undecided(name, rival, "the best cut-off is infinite: the power law itself");
-    const double gain =
-        points_ == 1
-            ? n_ * (rival.fit.log_likelihood - (law_.of_u.b * rival.mean_u - law_.of_u.log_z()))
-            : -n_ * mean([&](std::size_t bin) { return advantage(bin, rival); });
-    return {name,
-            {{"alpha", 1.0 - rival.fit.b}, {"cut-off", lo_ / rival.fit.c}},
-            -gain,
-            -2.0 * gain,
-            gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0)};
-  }
-
- private:
-  static constexpr std::size_t most_points = 16;
-
-  static Comparison undecided(const char *name, const Tilted &rival, const char *border) {
-    Comparison out;
-    out.rival = name;
-    out.degenerate = true;
-    out.why = rival.fit.converged ? border : "no optimum found";
-    return out;
-  }
-
-  // The logarithm of the integral of a density over a bin, and with it the mean of a function
-  // there.
-  template <class LogDensity, class F>
-  std::pair<double, double> integral(std::size_t bin, const LogDensity &density, const F &f) const {
-    const double *const u = &u_[bin * points_];
-    if (points_ == 1) return {density(*u), f(*u)};
-    double logs[most_points], top = -infinity, sum = 0.0, of_f = 0.0;
-    for (std::size_t i = 0; i < points_; ++i) top = std::max(top, logs[i] = density(u[i]));
-    for (std::size_t i = 0; i < points_; ++i) {
-      const double p = weights_[bin * points_ + i] * std::exp(logs[i] - top);
-      sum += p;
-      of_f += p * f(u[i]);
-    }
-    return {top + std::log(sum), of_f / sum};
-  }
-
-  // Mean of a function of the bin of a value.
-  template <class F>
-  double mean(const F &f) const {
-    NeumaierSum sum;
-    for (std::size_t bin = 0; bin < counts_.size(); ++bin) sum.add(counts_[bin] * f(bin));
-    return sum.value() / n_;
-  }
-
-  // Fits a rival. `fit` gets a function that returns the means over the sample. Within bins, these
-  // are the means under the rival itself, which changes with them: the algorithm of expectation and
-  // maximization (Dempster, Laird & Rubin 1977) ends at the maximum of the likelihood of the
-  // counts.
-  template <class LogDensity, class FitToMeans>
-  void find(const LogDensity &density, const FitToMeans &fit) const {
-    double last = fit([&](const auto &f) {
-      return mean([&](std::size_t bin) { return integral(bin, flat, f).second; });
-    });
-    for (int i = 0; points_ > 1 && i < 200; ++i) {
-      const double next = fit([&](const auto &f) {
-        return mean([&](std::size_t bin) { return integral(bin, density, f).second; });
-      });
-      if (std::fabs(next - last) <= 1e-9 * std::fabs(next)) return;
-      last = next;
-    }
-  }
-  static double flat(double) { return 0.0; }
-
-  // By how much the logarithm of the likelihood of a bin is larger for the power law.
-  template <class LogDensity>
-  double advantage(std::size_t bin, const LogDensity &rival) const {
-    const double b = law_.of_u.b, log_z = law_.of_u.log_z();
-    const auto law = [b, log_z](double u) { return b * u - log_z; };
-    return integral(bin, law, flat).first - integral(bin, rival, flat).first;
-  }
-
-  // Vuong's test in u: the Jacobian of the change of variables cancels in the likelihood ratio.
-  template <class LogDensity>
-  Comparison vuong(const char *name, std::vector<std::pair<std::string, double>> parameters,
-                   const LogDensity &rival) const {
-    const double average = mean([&](std::size_t bin) { return advantage(bin, rival); });
-    const double deviation = std::sqrt(
-        mean([&](std::size_t bin) { return std::pow(advantage(bin, rival) - average, 2); }));
-    const double normalised = deviation > 0.0 ? std::sqrt(n_) * average / deviation : 0.0;
-    return {name, std::move(parameters), n_ * average, normalised,
-            std::erfc(std::fabs(normalised) / std::sqrt(2.0))};
-  }
-
-  double lo_, hi_;
-  TruncatedPowerLaw law_;
-  std::size_t points_;               // of the quadrature in a bin
-  std::vector<double> u_, weights_;  // of the points, bin by bin
-  std::vector<double> counts_;       // of the values in each bin
-  double n_ = 0.0;
-};
+Comparison undecided(const char *name, std::string why) {
+  return {name, {}, 0.0, 0.0, 1.0, true, std::move(why)};
+}
 
 }  // namespace
 
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit) {
   if (fit.degenerate)
     throw std::invalid_argument("comparison with a degenerate power law: " + fit.why);
-  const Contest contest(sorted, fit);
-  return {contest.exponential(), contest.log_normal(), contest.cut_off()};
+  const char *const names[] = {"exponential", "log-normal", "power law with exponential cut-off"};
+  std::vector<Comparison> out;
+  if (fit.step > 0.0) {
+    for (const char *const name : names)
+      out.push_back(undecided(name, "only without bins of magnitudes (--magnitude-bin 0)"));
+    return out;
+  }
+  const TruncatedPowerLaw power_law(fit, 1.0 - fit.alpha);
+  const Exponential &law = power_law.of_u;
+  std::vector<double> logs = logs_in(fit, sorted);
+  for (double &y : logs) y -= power_law.lower;
+  const Sample u(std::move(logs));
+
+  // In t = (x - lo) / width, an exponential has the same form as the power law in u.
+  const double width = law.finite() ? fit.hi - fit.lo : fit.lo, scale = fit.lo / width;
+  const Exponential of_t = Exponential::of_mean(
+      u.mean([](double u_i) { return std::expm1(u_i); }) * scale, law.finite() ? 1.0 : infinity);
+  out.push_back(vuong(names[0], {{"rate", -of_t.b / width}}, u, law,
+                      [&, norm = of_t.log_z() - std::log(scale)](double u_i) {
+                        return of_t.b * std::expm1(u_i) * scale - norm + u_i;
+                      }));
+
+  const double mean_u = u.mean([](double u_i) { return u_i; });
+  for (const double rate : {0.0, 1.0}) {
+    const double mean_t = u.mean(Tilt{rate});
+    const TiltedFit rival = fit_tilted({rate}, mean_u, mean_t, law.length);
+    const char *const name = names[rate > 0.0 ? 2 : 1];
+    if (!rival.converged) {
+      out.push_back(undecided(name, "no optimum found"));
+    } else if (!(rival.c > 0.0)) {
+      out.push_back(
+          undecided(name, rate > 0.0 ? "the best cut-off is infinite: the power law itself"
+                                     : "the best log-normal is its limit, the power law itself"));
+    } else if (rate > 0.0) {
+      const double gain = u.n() * (rival.log_likelihood - (law.b * mean_u - law.log_z()));
+      out.push_back({name,
+                     {{"alpha", 1.0 - rival.b}, {"cut-off", fit.lo / rival.c}},
+                     -gain,
+                     -2.0 * gain,
+                     gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0)});
+    } else {
+      // Parameters of ln x: mu is that of the untruncated normal and may lie far below the range.
+      const double norm = rival.b * mean_u - rival.c * mean_t - rival.log_likelihood;
+      out.push_back(vuong(name,
+                          {{"mu", power_law.lower + rival.b / (2.0 * rival.c)},
+                           {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}},
+                          u, law,
+                          [&](double u_i) { return rival.b * u_i - rival.c * u_i * u_i - norm; }));
+    }
+  }
+  return out;
 }
 
 }  // namespace LSM::postproc

@@ -8,8 +8,8 @@
 /// Sizes of earthquakes come from magnitudes that agencies round, to 0.1 or 0.01, so that their
 /// logarithms are multiples of a step. With a step > 0, values are counted in bins centred at these
 /// multiples; [lo, hi] holds the bins whose centres lie in it, the law extends half a bin beyond
-/// the first and the last of them, and likelihoods, distances (at the edges of bins), replicas and
-/// rival laws are those of the counts †. Taken for continuous, such sizes give too steep a law.
+/// the first and the last of them, and likelihoods, distances (at the edges of bins) and replicas
+/// are those of the counts †. Taken for continuous, such sizes give too steep a law.
 ///
 /// The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method;
 /// maximum likelihood is †.
@@ -73,7 +73,7 @@ struct Comparison {
   /// chi square with 1 degree of freedom, which is conservative since the cut-off cannot be
   /// negative.
   double p = 1.0;
-  /// The best rival is its limit (a power law, or a flat density).
+  /// The best rival is its limit (a power law, or a flat density), or sizes are in bins.
   bool degenerate = false;
   std::string why = {};
 };

@@ -50,14 +50,6 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
       if (!law.degenerate && settings.compare) fit.comparisons = compare(sorted, law);
       fit.fit.lo *= unit;
       fit.fit.hi *= unit;
-      for (Comparison &rival : fit.comparisons)
-        for (auto &[name, value] : rival.parameters)
-          if (name == "mu")
-            value += std::log(unit);
-          else if (name == "cut-off")
-            value *= unit;
-          else if (name == "rate")
-            value /= unit;
       fits.push_back(std::move(fit));
     }
   }

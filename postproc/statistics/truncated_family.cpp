@@ -151,7 +151,7 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
   return table;
 }
 
-TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length) {
+TiltedFit fit_tilted(Tilt statistic, double mean_u, double mean_t, double length) {
   // The likelihood is concave: its slope in c at the best exponential shows whether c > 0 is
   // better.
   const double rate = statistic.rate;

@@ -65,7 +65,7 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
                           double lower, double upper, double feature);
 
 /// T(u) = u^2, or exp(rate u) if rate > 0.
-struct Statistic {
+struct Tilt {
   double rate = 0.0;
   double operator()(double u) const { return rate > 0.0 ? std::exp(rate * u) : u * u; }
 };
@@ -81,7 +81,7 @@ struct TiltedFit {
 /// Maximum-likelihood fit.
 /// \param mean_u, mean_t means of u and T(u) over the sample, which are sufficient statistics
 /// \param length may be infinite
-TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length);
+TiltedFit fit_tilted(Tilt statistic, double mean_u, double mean_t, double length);
 
 }  // namespace LSM::postproc
 

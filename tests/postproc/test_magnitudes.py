@@ -177,11 +177,7 @@ def test_bins_of_any_step_and_offset(postproc, work, width, offset):
     for key in "exponent", "standard_error", "n", "ks", "log_likelihood", "p":
         assert fit[key] == pytest.approx(plain[key], rel=1e-9), key
     assert fit["lo"] == pytest.approx(plain["lo"] * unit) and fit["hi"] == pytest.approx(plain["hi"] * unit)
-    for rival, other in zip(fit["comparisons"], plain["comparisons"]):
-        for key, value in rival.get("parameters", {}).items():
-            there = other["parameters"][key]
-            expected = {"mu": there + math.log(unit), "rate": there / unit, "cut-off": there * unit}.get(key, there)
-            assert value == pytest.approx(expected, rel=1e-6), (rival, key)
+    assert {rival["why"] for rival in fit["comparisons"]} == {"only without bins of magnitudes (--magnitude-bin 0)"}
     # The line is drawn through the bins.
     run(postproc, f"histograms q.csv --threshold M{first} --no-picture -o h --overwrite")
     rows = table("h.csv")
@@ -219,8 +215,6 @@ def test_sizes_in_bins_have_the_right_exponent(postproc, work, width):
     deviation = math.sqrt((share * bins**2).sum() - (share * bins).sum()**2) * width * 1.5 * math.log(10)
     assert float(found[0]["standard_error"]) == pytest.approx(1 / (deviation * math.sqrt(len(k))), rel=1e-6)
     assert float(found[0]["p"]) > 0.02
-    assert all(float(row["ln_likelihood_ratio"]) > -6 for row in found)
-    assert float(next(row for row in found if row["rival"] == "exponential")["ln_likelihood_ratio"]) > 100
     run(postproc, "explore q.csv -o explore.html")
     data = json.loads(re.search(r'id="data">(.*?)</script>', Path("explore.html").read_text(), re.S).group(1))
     laws = [one["law"] for one in data["runs"][0]["kinds"][0]["thresholds"] if one["law"]["n"] > 5000]

@@ -452,67 +452,6 @@ TEST(PowerLaw, ProbabilityOfSizesInBinsIsUniformUnderTheNull) {
   EXPECT_EQ(p_value(fit_power_law(right, 1000.0, 3e6), right, 99, 1), 0.01);
 }
 
-// As RatiosAgreeWithQuadrature, with the integrals of the densities over the bins; and no other
-// parameters have a larger likelihood.
-TEST(PowerLaw, RivalsOfSizesInBins) {
-  LSM::Random random(45);
-  for (const double step : {tenth, 3.0 * tenth}) {
-    const int first = 0, last = static_cast<int>(std::lround(30.0 * tenth / step));
-    const double lo = std::exp((first - 0.5) * step), hi = std::exp((last + 0.5) * step);
-    std::vector<double> sample;
-    while (sample.size() < 4000) {
-      const double x = power_law_sample(1, 1.2, lo, hi, random)[0];
-      if (random.uniform() < std::exp(-x / 300.0))
-        sample.push_back(std::exp(step * std::floor(std::log(x) / step + 0.5)));
-    }
-    std::sort(sample.begin(), sample.end());
-    const PowerLawFit fit =
-        fit_power_law(sample, std::exp(first * step), std::exp(last * step), step);
-    ASSERT_FALSE(fit.degenerate) << fit.why;
-    std::map<int, double> counts;
-    for (double x : sample) ++counts[static_cast<int>(std::lround(std::log(x) / step))];
-    for (const Comparison &comparison : compare(sample, fit)) {
-      ASSERT_FALSE(comparison.degenerate) << comparison.rival << comparison.why;
-      const auto log_likelihood = [&](std::vector<double> p) {
-        const auto density = [&](double x) {
-          if (comparison.rival == "exponential") return std::exp(-p[0] * x);
-          if (comparison.rival == "log-normal")
-            return std::exp(-std::log(x) - 0.5 * std::pow((std::log(x) - p[0]) / p[1], 2));
-          return std::exp(-p[0] * std::log(x) - x / p[1]);
-        };
-        double sum = 0.0, all = 0.0;
-        for (int bin = first; bin <= last; ++bin) {
-          double part = 0.0;  // by Simpson's rule in ln x
-          for (int i = 0; i <= 400; ++i) {
-            const double x = std::exp((bin - 0.5 + i / 400.0) * step);
-            const double weight = i == 0 || i == 400 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-            part += weight * step / 1200.0 * density(x) * x;
-          }
-          all += part;
-          if (counts.count(bin)) sum += counts[bin] * std::log(part);
-        }
-        return sum - static_cast<double>(sample.size()) * std::log(all);
-      };
-      std::vector<double> p;
-      for (const auto &[name, value] : comparison.parameters) p.push_back(value);
-      const double top = log_likelihood(p);
-      EXPECT_NEAR(comparison.log_likelihood_ratio, fit.log_likelihood - top, 1e-5)
-          << comparison.rival << " " << step;
-      for (std::size_t i = 0; i < p.size(); ++i)
-        for (const double change : {-1e-3, 1e-3}) {
-          std::vector<double> other = p;
-          other[i] *= 1.0 + change;
-          EXPECT_LT(log_likelihood(other), top + 1e-7) << comparison.rival << " " << step;
-        }
-      if (comparison.rival == "power law with exponential cut-off") {
-        EXPECT_NEAR(p[0], 1.2, 0.05);
-        EXPECT_NEAR(std::log(p[1] / 300.0), 0.0, 0.3);
-        EXPECT_LT(comparison.p, 1e-6);
-      }
-    }
-  }
-}
-
 TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {
   LSM::Random random(12);
   int none = 0, significant = 0;

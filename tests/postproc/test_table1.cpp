@@ -71,16 +71,6 @@ TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
 }
 
 // Values that are printed side by side must be based on the same standard deviation.
-TEST(Intervals, BurstinessOfCurveAndOfClusteringAreOne) {
-  IntervalSettings settings;
-  settings.thresholds = {0.0};
-  settings.deltas.clear();
-  settings.shuffles = 3;
-  const IntervalCurve curve = interval_curves({gamma_events(0.5, 1.0, 30)}, settings)[0];
-  EXPECT_EQ(curve.variation, curve.clustering.variation.value);
-  EXPECT_EQ(curve.burstiness(), curve.clustering.burstiness);
-}
-
 // Short times are left out of the fit. The limit is a multiple of the mean, whatever the unit, and
 // C is that of the density of all times.
 TEST(Intervals, FitFromALowerEndOn) {
