@@ -27,6 +27,11 @@ def header(path):
     return header_of(lines(path))
 
 
+def info(path):
+    """What is beside a restart file: the values of variables."""
+    return dict(line.split(" = ", 1) for line in Path(path).read_text().splitlines() if " = " in line)
+
+
 def unknown_keys(*headers):
     """Keys of headers that are not in the table of lammps-pkg/core/files/header_keys.cpp."""
     table = set(re.findall(r'^ +{"(\w+)",', (SOURCE / "lammps-pkg/core/files/header_keys.cpp").read_text(), re.M))

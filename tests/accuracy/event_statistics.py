@@ -3,6 +3,9 @@
 import math
 from typing import NamedTuple
 
+from scipy.special import polygamma
+from scipy.stats import chi2, ks_2samp
+
 NAN = math.nan
 
 
@@ -34,35 +37,8 @@ def exponent(sizes, lo, hi):
 
 
 def two_sample(a, b):
-    """Probability of a larger Kolmogorov-Smirnov distance if both samples come from the same distribution (asymptotic, with Stephens'
-    correction)."""
-    a, b = sorted(a), sorted(b)
-    distance, i, j = 0.0, 0, 0
-    while i < len(a) and j < len(b):
-        x = min(a[i], b[j])
-        while i < len(a) and a[i] == x:
-            i += 1
-        while j < len(b) and b[j] == x:
-            j += 1
-        distance = max(distance, abs(i / len(a) - j / len(b)))
-    if not a or not b:
-        return 1.0
-    n = math.sqrt(len(a) * len(b) / (len(a) + len(b)))
-    z = (n + 0.12 + 0.11 / n) * distance
-    p = sum((2 if k % 2 else -2) * math.exp(-2 * k * k * z * z) for k in range(1, 101))
-    return 1.0 if z < 0.2 else min(max(p, 0.0), 1.0)
-
-
-def polygamma(x):
-    """Derivatives of log Gamma: digamma, trigamma (x > 0)."""
-    first = second = 0.0
-    while x < 10:
-        first -= 1 / x
-        second += 1 / (x * x)
-        x += 1
-    q = 1 / (x * x)
-    return (first + math.log(x) - 0.5 / x - q * (1 / 12 - q * (1 / 120 - q / 252)),
-            second + 1 / x + 0.5 * q + q / x * (1 / 6 - q * (1 / 30 - q / 42)))
+    """Probability of a larger Kolmogorov-Smirnov distance if both samples come from the same distribution."""
+    return ks_2samp(a, b).pvalue if len(a) and len(b) else 1.0
 
 
 def gamma_density(times):
@@ -75,23 +51,9 @@ def gamma_density(times):
     mean = math.fsum(times) / n
     spread = math.log(mean) - math.fsum(map(math.log, times)) / n
     # log(gamma) - digamma(gamma) = spread; the left side falls with gamma
-    gamma = bisected(1e-6, 1e6, lambda g: math.log(g) - polygamma(g)[0] > spread, lambda a, b: math.sqrt(a * b), 200)
-    second, b = polygamma(gamma)[1], mean / gamma
+    gamma = bisected(1e-6, 1e6, lambda g: math.log(g) - polygamma(0, g) > spread, lambda a, b: math.sqrt(a * b), 200)
+    second, b = polygamma(1, gamma), mean / gamma
     return (Estimate(gamma, math.sqrt(gamma / (n * (gamma * second - 1)))), Estimate(b, b * math.sqrt(second / (n * (gamma * second - 1)))))
-
-
-def chi_square_tail(x, freedom):
-    """Probability that chi-square with the given degrees of freedom exceeds x."""
-    if freedom < 1 or not x >= 0:
-        raise ValueError("chi_square_tail: out of range")
-    half, a = 0.5 * x, 0.5 if freedom % 2 else 1.0
-    tail = math.erfc(math.sqrt(half)) if freedom % 2 else math.exp(-half)
-    term = half**a * math.exp(-half) / math.gamma(a + 1)
-    while a < 0.5 * freedom:
-        tail += term
-        a += 1
-        term *= half / a
-    return tail
 
 
 def agreement(dt, estimates):
@@ -103,7 +65,7 @@ def agreement(dt, estimates):
     weight = sum(w for _, _, w in known)
     x0, y0 = (sum(one[i] * one[2] for one in known) / weight for i in (0, 1))
     chi, xx, xy = (sum(w * f(x - x0, y - y0) for x, y, w in known) for f in (lambda x, y: y * y, lambda x, y: x * x, lambda x, y: x * y))
-    return chi_square_tail(chi, len(known) - 1), chi_square_tail(xy * xy / xx, 1) if xx > 0 else 1.0
+    return chi2.sf(chi, len(known) - 1), chi2.sf(xy * xy / xx, 1) if xx > 0 else 1.0
 
 
 def paired(first, second, near):
@@ -123,4 +85,4 @@ def unpaired_p(only_first, only_second):
     """Probability of a larger difference if an event is equally likely to be missing in either run (McNemar's test with correction for
     continuity)."""
     off = abs(only_first - only_second)
-    return chi_square_tail((off - 1)**2 / (only_first + only_second), 1) if off > 1 else 1.0
+    return chi2.sf((off - 1)**2 / (only_first + only_second), 1) if off > 1 else 1.0

@@ -18,6 +18,12 @@ import lsm  # noqa: E402
 from lsm.regime import of_run  # noqa: E402
 
 
+def last_line(result):
+    """The last line of the last thermo table of the scene."""
+    table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", result.out, re.S | re.M)[-1]
+    return np.array([line.split() for line in table.splitlines() if len(line.split()) == 8][-1], float)
+
+
 def particles(result):
     return int(re.search("^Created ([0-9]+) particles", result.out, re.M)[1])
 
@@ -34,9 +40,7 @@ def test_fault_120(on_ranks, postproc):
     large = events["size"] >= 0.01
     assert (events["size"] > 0).all() and large.sum() >= 3 and (columns[8][large] > 0).all() and (columns[9] >= 0).all()
     assert (columns[9] <= 120).all() and (columns[10] <= 120).all()
-    table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
-    ratio = float([line.split() for line in table.splitlines() if len(line.split()) == 8][-1][6])
-    assert 0.5 < ratio < 0.8, "shear/normal stress"
+    assert 0.5 < last_line(said)[6] < 0.8, "shear/normal stress"
     # Picking the series gives the events that the run picked, and it can be drawn.
     run(postproc, "pick short.pe.bin -o picked.csv")
     assert rows("picked.csv") == [",".join(row.split(",")[:8]) for row in rows("short.catalogue.csv")]
@@ -69,9 +73,7 @@ def test_lists_that_are_added_to_do_not_change_the_motion(lmp, work):
     piece, first, last, worst = 5000, 5000, 55000, []
 
     def at_the_end(way, at, **more):
-        said = run(lmp, scene("fault_120.in", steps=at, prefix=f"{way}{at}", extra=work / way, **more))
-        table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
-        return np.array([line.split() for line in table.splitlines() if len(line.split()) == 8][-1], float)
+        return last_line(run(lmp, scene("fault_120.in", steps=at, prefix=f"{way}{at}", extra=work / way, **more)))
 
     settings = dict(preset="absorbing", checkpoint=1000000, velocity=0.002, series="no")
     at_the_end("added", first, **settings)
@@ -110,18 +112,6 @@ def test_lengths(lmp, work, length):
     assert 61 * length < particles(said) < 65 * length
 
 
-def test_law(lmp):
-    """One variable chooses the friction law; its words are in the headers, and a restart keeps it."""
-    law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
-    short = dict(settle=0, checkpoint=10, ruptures="yes", prefix="law")
-    run(lmp, scene("fault_120.in", law=law, steps=10, **short))
-    for name in "law.catalogue.csv", "law.ruptures.csv":
-        assert header(name)["law"] == law
-    run(lmp, scene("fault_120.in", law=law, steps=20, restart="law.restart.end", **short))
-    said = run(lmp, scene("fault_120.in", law="slip-weakening mu 0.5", steps=10, overwrite="yes", **short), status=1)
-    assert re.search(r"expects 'pair_coeff I J k kt mu VALUE mu_static VALUE dc VALUE \[heal VALUE\] \[kelvin-voigt TIME\]'", said.out)
-
-
 def test_stick_slip(lmp):
     """The absorbing fault, half as long as the shortest one of the paper, has stick-slip, and the measure
     of it distinguishes a creeping one."""
@@ -143,25 +133,10 @@ def test_stick_slip(lmp):
 
 
 # ---- dumps and pictures
-READ_BACK = """units lj
-dimension 2
-boundary p f p
-newton off
-atom_style hybrid bond sphere
-atom_modify map array
-create_lsm_fault length 120 width 30 seed 1 loose remove mass r2 1.0
-bond_style zero
-bond_coeff *
-pair_style zero 3.6
-pair_coeff * *
-comm_modify mode single cutoff 3.6
-read_dump d.000000160.dump 160 x y vx vy box yes
-write_dump all custom back.dump id type x y z radius vx vy modify sort id format float %.9g
-"""
 
 
 def test_dump(lmp):
-    """Frames are written at the given steps, in a form that OVITO reads, and are the same when read back."""
+    """Frames are written at the given steps, in a form that OVITO reads."""
     small = dict(length=120, settle=100, steps=60, prefix="d", series="no")
     discs = particles(run(lmp, scene(extra="fault_dump", **{"from": 120, "to": 160, "every": 20}, **small)))
     frames = sorted(Path().glob("d.*.dump"))
@@ -177,13 +152,7 @@ def test_dump(lmp):
         assert (np.diff(number) > 0).all() and (x >= low).all() and (x <= high).all() and (z == 0).all()
         assert set(kind) == {1, 2, 3, 4, 5, 6} and (radius >= 0.1).all() and (radius <= 1).all()
         assert np.count_nonzero(vx) >= 0.9 * discs
-    # Read into another state of the same fault and written again, the frame is unchanged. Positions outside
-    # the box would be wrapped; there are none.
-    Path("back.in").write_text(READ_BACK)
-    run(lmp, "-in back.in")
-    discs_of = {name: Path(name).read_text().split("\n", 9)[9] for name in ("d.000000120.dump", "d.000000160.dump", "back.dump")}
-    assert discs_of["d.000000160.dump"] == discs_of["back.dump"]
-    assert discs_of["d.000000120.dump"] != discs_of["back.dump"], "all frames are the same"
+    assert len({frame.read_text().split("\n", 9)[9] for frame in frames}) == 3, "frames are the same"
     # The dump does not change the run.
     os.rename("d.catalogue.csv", "with.csv")
     run(lmp, scene(overwrite="yes", **small))

@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from data_files import header, same_bytes
+from data_files import header, info, same_bytes
 from programs import refused, run, scene, start
 from variables import declared
 
@@ -20,10 +20,6 @@ SMALL = dict(length=20, width=15, settle=100, velocity=0.01, checkpoint=400, loc
 
 def small(**variables):
     return scene(**{**SMALL, **variables})
-
-
-def info(path):
-    return dict(line.split(" = ", 1) for line in Path(path).read_text().splitlines() if " = " in line)
 
 
 def restart_steps(folder="."):

@@ -5,25 +5,15 @@ import zlib
 from pathlib import Path
 
 import pytest
-from data_files import header, same_bytes
-from programs import INPUTS, refused, run, start
+from data_files import header, info, same_bytes
+from programs import INPUTS, refused, run, scene, start
 from variables import declared
 
 SMALL = {"length": 20, "width": 15, "settle": 100, "velocity": 0.01, "checkpoint": 400, "steps": 400, "prefix": "a"}
 
 
-def scene(*more, **variables):
-    """Words of a run; a variable that is None is left out."""
-    given = [word for name, value in variables.items() if value is not None for word in ("-var", name, value)]
-    return ["-in", INPUTS / "fault.in", *given, *more]
-
-
 def small(*more, **variables):
-    return scene(*more, **{**SMALL, **variables})
-
-
-def info(file):
-    return dict(line.split(" = ", 1) for line in Path(file).read_text().splitlines() if " = " in line)
+    return [*scene(**{**SMALL, **variables}), *more]
 
 
 def with_checksum(file, lines):
@@ -31,12 +21,6 @@ def with_checksum(file, lines):
     last = Path(f"{file}.info").read_text().splitlines()[-1]
     text = "".join(line + "\n" for line in lines)
     Path(f"{file}.info").write_text(f"{text}lines = {zlib.crc32(text.encode())}\n{last}\n")
-
-
-def test_a_scene_on_standard_input_needs_its_folder(lmp):
-    """Its folder is not known, so what it reads beside itself is not found."""
-    with open(INPUTS / "fault_120.in") as scene_on_input:
-        refused(lmp, "-log none", r"cannot read file fault.in; .*use 'lmp -in FILE' instead of 'lmp < FILE'", stdin=scene_on_input)
 
 
 @pytest.mark.parametrize("name, value", [("prefix", "a;echo>PWNED;b"), ("law", "coulomb 0.6 0.6; shell touch PWNED"), ("stress", "$(1/0)")])
@@ -71,21 +55,22 @@ def test_values_that_are_refused(lmp):
     # On the command line LAMMPS takes a word with '-' for an option, but a script may set the variable.
     Path("in.dash").write_text(f"variable prefix string -x\ninclude {INPUTS}/fault.in\n")
     refused(lmp, ["-in", "in.dash", *small(prefix=None)[2:]], "ERROR: Variable prefix is '-x', but must be .* that does not begin with -")
-    # A variable that nothing reads.
-    said = run(lmp, small(stres=0.03, prefix="known", steps=1))
-    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["stres"]
-
-
-def test_a_scene_that_is_missing_is_found_at_once(lmp):
-    """A scene of `extra` is read after the compression."""
+    # Of several values LAMMPS would take the first.
+    for words, said in ((small("-var", "stress", "0.04", stress=0.03), "stress is given twice, as '0.03' and as '0.04'; leave one out"),
+                        (small("-var", "seed", 1, 2, 3), "seed is given several values, '1' and '2'; give one, or put its words in quotes"),
+                        (small("-var", "law", "coulomb", 0.6, 0.7), "law is given several values, 'coulomb' and '0.6'"),
+                        (small(contacts="fault",
+                               loose="keep"), "contacts is fault and loose is keep, but then nothing holds discs that are not linked")):
+        refused(lmp, words, f"Variable {said}")
+    # A scene of `extra` is read after the compression, but found at once; that of an input has to have a folder.
     assert "Step" not in refused(lmp, small(extra="nonsense"), "Variable extra: cannot read file .*nonsense.in").out
+    with open(INPUTS / "fault_120.in") as scene_on_input:
+        refused(lmp, "-log none", r"cannot read file fault.in; .*use 'lmp -in FILE' instead of 'lmp < FILE'", stdin=scene_on_input)
 
 
-def test_whole_numbers_may_have_exponents(lmp):
-    for steps, prefix in (("400", "a"), ("4e2", "b"), ("400.0", "c")):
-        run(lmp, small(settle="1e2", checkpoint="2e2", steps=steps, prefix=prefix))
-        assert Path(f"{prefix}.pe.bin").stat().st_size == Path("a.pe.bin").stat().st_size
-    assert header("b.catalogue.csv")["checkpoint"] == "200"
+def test_variables_that_nothing_reads(lmp):
+    said = run(lmp, small(extra="fault_dump", every=200, evry=200, steps=1))
+    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["evry"]
 
 
 def test_three_faults_by_what_happens_to_waves(lmp):
@@ -124,17 +109,6 @@ def test_an_earlier_run_is_kept_from_the_beginning(lmp):
     run(lmp, scene(restart="a.restart.end", steps=500))
 
 
-def test_a_variable_given_twice(lmp):
-    refused(lmp, small("-var", "stress", "0.04", stress=0.03), "Variable stress is given twice, as '0.03' and as '0.04'; leave one out")
-    run(lmp, small("-var", "stress", "0.03", stress=0.03, steps=1))
-
-
-def test_several_values_of_a_variable(lmp):
-    """LAMMPS would take the first of them."""
-    refused(lmp, small("-var", "seed", 1, 2, 3), "Variable seed is given several values, '1' and '2'; give one, or put its words in quotes")
-    refused(lmp, small("-var", "law", "coulomb", 0.6, 0.7), "Variable law is given several values, 'coulomb' and '0.6'")
-
-
 TWICE = """include {inputs}/fault.in
 clear
 variable prefix delete
@@ -159,29 +133,19 @@ def test_a_second_fault_after_the_first(lmp, first, second):
     same_bytes("b.pe.bin", "c.pe.bin")
 
 
-def test_variables_of_further_scenes_are_known(lmp):
-    said = run(lmp, small(extra="fault_dump", every=200, evry=200, steps=1))
-    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["evry"]
+# Variables that have an effect together, and what headers state
+TOGETHER = [({"lambda": 0.9, "memory": 0}, "lambda", 0.9), ({"lambda": 0.9, "picker": "average"}, "lambda", 0.9),
+            ({"impedance": 0.3}, "impedance", 0.3), ({"law": "coulomb 0.9 0.9", "mu": 0.9}, "law", "coulomb 0.9 0.9"),
+            ({"contacts": "smooth", "loose": "keep"}, "contacts", "smooth"), ({"stress": 0.03, "-var": "stress 0.03"}, "stress", 0.03),
+            ({"checkpoint": "2e2", "steps": "4e2", "settle": "1e2"}, "checkpoint", 200.0)]  # yapf: disable
 
 
-def test_coefficients_that_the_law_has_as_well(lmp):
-    run(lmp, small(law="coulomb 0.9 0.9", mu=0.9, steps=1))
-    assert header("a.catalogue.csv")["law"] == "coulomb 0.9 0.9"
-
-
-def test_variables_that_others_make_count(lmp):
-    """Each variable has an effect that headers state."""
-    for prefix, variables, name, value in (("a", {"lambda": 0.9, "memory": 0}, "lambda", "0.9"), ("b", {"lambda": 0.9,
-                                                                                                        "picker": "average"}, "lambda", "0.9"),
-                                           ("c", {"impedance": 0.3}, "impedance", "0.3")):
-        run(lmp, small(**variables, prefix=prefix, steps=1))
-        assert float(header(f"{prefix}.catalogue.csv")[name]) == float(value)
-
-
-def test_variables_that_cannot_be_together(lmp):
-    refused(lmp, small(contacts="fault", loose="keep"),
-            "Variable contacts is fault and loose is keep, but then nothing holds discs that are not linked")
-    run(lmp, small(contacts="smooth", loose="keep", steps=1))
+def test_variables_that_make_each_other_count(lmp):
+    for n, (variables, name, value) in enumerate(TOGETHER):
+        again = variables.pop("-var", "").split()
+        run(lmp, small(*(["-var", *again] if again else []), **{"steps": 1, **variables}, prefix=f"p{n}"))
+        stated = header(f"p{n}.catalogue.csv").get(name) or info(f"p{n}.restart.end.info")[name]
+        assert (float(stated) if isinstance(value, float) else stated) == value, variables
 
 
 def test_a_run_goes_on_with_what_it_was_begun_with(lmp):

@@ -55,48 +55,22 @@ def test_numbers_are_plain(work):
     assert doubled.tolist() == [0.5] and doubled.header["seed"] == "3" and np.sqrt(events[:0]["size"]).shape == (0,)
 
 
-def test_compressed_and_unknown_columns(work):
-    for name, module in (("a.gz", gzip), ("a.xz", lzma)):
-        (work / name).write_bytes(module.compress(CATALOGUE.encode()))
-        events = lsm.read_catalogue(name)
-        assert events["new_one"].tolist() == [7.0, 8.0] and events["event_id"].tolist() == [1, 3]
-        assert events.header == {"model": "lsm", "seed": "3"} and events[events["size"] > 1].header == events.header
+@pytest.mark.parametrize("content", [
+    gzip.compress(CATALOGUE.encode()),
+    lzma.compress(CATALOGUE.encode()), b"\xef\xbb\xbf" + CATALOGUE.replace("\n", "\r\n").encode(),
+    CATALOGUE.replace("# seed = 3", "#seed=3").encode(), f"{CATALOGUE}4,3,4,30,4".encode()
+], ids=["gzip", "xz", "Windows", "without blanks", "a line that is still being written"])
+def test_forms_of_a_catalogue(work, content):
+    (work / "a.csv").write_bytes(content)
+    events = lsm.read_catalogue("a.csv")
+    assert events["new_one"].tolist() == [7.0, 8.0] and events["event_id"].tolist() == [1, 3] and events["size"].tolist() == [0.25, 1e-5]
+    assert events.header == {"model": "lsm", "seed": "3"} and events[events["size"] > 1].header == events.header
 
 
 def test_further_columns_of_text_are_left_out(work):
     (work / "a.csv").write_text(CATALOGUE.replace(",new_one", ",quality").replace(",7\n", ",good\n").replace(",8\n", ",bad\n"))
     events = lsm.read_catalogue("a.csv")
     assert "quality" not in events.dtype.names and events["size"].tolist() == [0.25, 1e-5]
-
-
-def test_headers_without_blanks(work):
-    (work / "a.csv").write_text(CATALOGUE.replace("# seed = 3", "#seed=3"))
-    assert lsm.read_catalogue("a.csv").header == {"model": "lsm", "seed": "3"}
-
-
-@pytest.mark.parametrize("old, new", [("0.25", "nan"), ("3,2,3,20", "3,2,3,99999999999999999999")])
-def test_what_no_event_can_have(work, old, new):
-    (work / "a.csv").write_text(CATALOGUE.replace(old, new))
-    with pytest.raises(ValueError, match="a.csv:[56]: '.*', expected 9 numbers"):
-        lsm.read_catalogue("a.csv")
-    assert len(lsm.read_catalogue("a.csv", lenient=True)) == 1
-
-
-def test_a_line_that_is_still_being_written_is_no_event(work):
-    (work / "a.csv").write_text(CATALOGUE + "4,3,4,30,4")
-    assert lsm.read_catalogue("a.csv")["event_id"].tolist() == [1, 3]
-
-
-@pytest.mark.parametrize("text, said", [("a,b\n1,2\n", "no catalogue, expected '# lsm-catalogue 1'"), ("", "no catalogue"),
-                                        (CATALOGUE.replace("catalogue 1", "catalogue 2"), "format 'lsm-catalogue 2', expected 'lsm-catalogue 1'"),
-                                        ("# lsm-catalogue 1\n# model = lsm\n", "no line of columns"),
-                                        (CATALOGUE.replace("0.25", "x"), r":5: '1,0.5.*', expected 9 numbers"),
-                                        (CATALOGUE.replace("\n3,", "\n1,"), ":6: event_id 1 after 1, expected increasing event_id"),
-                                        (CATALOGUE.replace(",8\n", "\n"), r":6: .*expected 9 numbers")])
-def test_catalogue_that_is_none(work, text, said):
-    (work / "a.csv").write_text(text)
-    with pytest.raises(ValueError, match=r"a\.csv.*" + said):
-        lsm.read_catalogue("a.csv")
 
 
 def binary(magic, header, records):
@@ -110,19 +84,44 @@ def test_series_with_times_of_its_own_and_an_incomplete_record(work):
     assert series["time"].tolist() == [0.5, 7.5] and series["pe"].tolist() == [2.0, 1.0]
 
 
-@pytest.mark.parametrize("raw, said",
-                         [(b"", "no PE series, expected 'lsm-pe-series-1'"), (binary(b"lsm-slip-hist-1\n", b"# bins = 1\n", b""), "no PE series"),
-                          (b"lsm-pe-series-1\n" + (1000).to_bytes(8, "little") + b"# dt = 1\n", "the header is not complete"),
-                          (binary(b"lsm-pe-series-1\n", b"# dt = x\n# step0 = 0\n# time0 = 0\n", b""), "parameter 'dt' is 'x', expected a number"),
-                          (binary(b"lsm-pe-series-1\n", b"# dt = 1\n", b""), "parameter 'step0' is missing"),
-                          (binary(b"lsm-pe-series-1\n", b"# times = own\n",
-                                  bytes.fromhex("01") + bytes(23) + bytes(24)), "record 2: step 0 after step 1, expected increasing steps"),
-                          (b"\x28\xb5\x2f\xfd...", "compressed by zstd, expected gzip, xz or a file that is not compressed"),
-                          (b"\xfd7zXZ\0broken", "cannot be decompressed")])
-def test_series_that_is_none(work, raw, said):
+SERIES = b"lsm-pe-series-1\n"
+NAN = CATALOGUE.replace("0.25", "nan")
+NONE = [(lsm.read_catalogue, text.encode(), said) for text, said in (
+    ("a,b\n1,2\n", "no catalogue, expected '# lsm-catalogue 1'"), ("", "no catalogue"),
+    (CATALOGUE.replace("catalogue 1", "catalogue 2"), "format 'lsm-catalogue 2', expected 'lsm-catalogue 1'"),
+    ("# lsm-catalogue 1\n# model = lsm\n", "no line of columns"), (CATALOGUE.replace("0.25", "x"), r":5: '1,0.5.*', expected 9 numbers"),
+    (CATALOGUE.replace("\n3,", "\n1,"), ":6: event_id 1 after 1, expected increasing event_id"),
+    (CATALOGUE.replace(",8\n", "\n"), r":6: .*expected 9 numbers"), (NAN, ":5: '.*', expected 9 numbers"),
+    (CATALOGUE.replace("3,2,3,20", "3,2,3,99999999999999999999"), ":6: '.*', expected 9 numbers"),
+    (CATALOGUE.replace("new_one", "size"), ":4: column 'size' is there 2 times, expected each once$"))]  # yapf: disable
+NONE += [(lsm.read_series, raw, said) for raw, said in (
+    (b"", ": no PE series, expected 'lsm-pe-series-1'"), (binary(b"lsm-slip-hist-1\n", b"# bins = 1\n", b""), ": no PE series"),
+    (SERIES + (1000).to_bytes(8, "little") + b"# dt = 1\n", "the header is not complete"),
+    (binary(SERIES, b"# dt = x\n# step0 = 0\n# time0 = 0\n", b""), "parameter 'dt' is 'x', expected a number"),
+    (binary(SERIES, b"# dt = 1\n", b""), "parameter 'step0' is missing"),
+    (binary(SERIES, b"# times = own\n", bytes.fromhex("01") + bytes(47)), "record 2: step 0 after step 1, expected increasing steps"),
+    (b"\x28\xb5\x2f\xfd...", "compressed by zstd, expected gzip, xz or a file that is not compressed"),
+    (b"\xfd7zXZ\0broken", "cannot be decompressed"))]  # yapf: disable
+
+
+@pytest.mark.parametrize("read, raw, said", NONE)
+def test_files_that_are_none(work, read, raw, said):
     (work / "a.bin").write_bytes(raw)
-    with pytest.raises(ValueError, match=r"a\.bin: .*" + said):
-        lsm.read_series("a.bin")
+    with pytest.raises(ValueError, match=r"^a\.bin.*" + said):
+        read("a.bin")
+
+
+def test_lenient_reading_leaves_bad_lines_out(work):
+    (work / "a.csv").write_text(NAN)
+    assert len(lsm.read_catalogue("a.csv", lenient=True)) == 1
+
+
+def test_a_damaged_file_is_named(work):
+    packed = gzip.compress(10 * CATALOGUE.encode())
+    for at in range(10, len(packed), 7):
+        (work / "damaged.csv.gz").write_bytes(packed[:at] + bytes([packed[at] ^ 0x10]) + packed[at + 1:])
+        with pytest.raises(ValueError, match="damaged.csv.gz: "):
+            lsm.read_catalogue("damaged.csv.gz")
 
 
 def test_slip_of_a_run_begins_with_an_empty_record(work):
@@ -185,7 +184,6 @@ def test_spectrum_of_a_sine():
     """Amplitude 2 and a period of 25.6 samples of 0.5: variance 2, frequency 1/12.8."""
     series = series_of(5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6))
     found = lsm.spectrum(series, 1024)
-    assert np.sum(found["density"]) * found["frequency"][1] == pytest.approx(2, abs=0.001)
     assert found["frequency"][np.argmax(found["density"])] == pytest.approx(1 / 12.8, abs=1e-12) and found.header == series.header
     assert len(lsm.spectrum(series)) == 257, "an eighth of 4096"
     with pytest.raises(ValueError, match="segment of 8192 samples, expected from 8 to the 4096"):

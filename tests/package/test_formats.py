@@ -2,7 +2,6 @@
 """Files that version 1.0 wrote, in tests/data/1.0, are read by every reader (lammps-pkg/doc/formats.md).
 contents.json says what is in them; neither it nor they are ever changed."""
 import copy
-import gzip
 import json
 import math
 import pickle
@@ -89,21 +88,6 @@ def test_python_reads_slip_of_a_plane():
         lsm.read_slip("plane.slip.bin")
 
 
-def test_python_reads_lines_of_windows(postproc):
-    raw = (DATA / "fault.catalogue.csv").read_bytes()
-    Path("windows.csv").write_bytes(b"\xef\xbb\xbf" + raw.replace(b"\n", b"\r\n"))
-    found, wanted = lsm.read_catalogue("windows.csv"), lsm.read_catalogue(DATA / "fault.catalogue.csv")
-    assert found.dtype == wanted.dtype and found.header == wanted.header and (found == wanted).all()
-
-
-def test_python_names_a_damaged_file(postproc):
-    packed = gzip.compress((DATA / "fault.catalogue.csv").read_bytes())
-    for at in range(10, len(packed), 29):
-        Path("damaged.csv.gz").write_bytes(packed[:at] + bytes([packed[at] ^ 0x10]) + packed[at + 1:])
-        with pytest.raises(ValueError, match="damaged.csv.gz: "):
-            lsm.read_catalogue("damaged.csv.gz")
-
-
 def test_python_keeps_the_header_in_other_processes(postproc):
     events = lsm.read_catalogue(DATA / CATALOGUES[0])
     for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
@@ -111,14 +95,6 @@ def test_python_keeps_the_header_in_other_processes(postproc):
             again = pickle.loads(pickle.dumps(table, protocol))
             assert isinstance(again, lsm.Table) and again.header == events.header and again.header["model"]
             assert again.dtype == events.dtype and again.tobytes() == table.tobytes()
-
-
-def test_python_refuses_columns_that_are_there_twice(postproc):
-    lines = (DATA / CATALOGUES[0]).read_text().splitlines()
-    first = next(n for n, line in enumerate(lines) if not line.startswith("#"))
-    Path("twice.csv").write_text("\n".join(lines[:first] + [line + "," + line.split(",")[0] for line in lines[first:]]) + "\n")
-    with pytest.raises(ValueError, match=f"^twice.csv:{first + 1}: column 'event_id' is there 2 times, expected each once$"):
-        lsm.read_catalogue("twice.csv")
 
 
 @pytest.mark.parametrize("number", [0, -1, math.nan, math.inf, -math.inf])

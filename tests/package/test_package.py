@@ -9,6 +9,7 @@ import pytest
 from conftest import MPI, lammps_errors
 from data_files import read_catalogue, same, same_bytes
 from programs import BUILD, Program, run
+from test_pages import SCENE
 
 STYLES = ("lsm/linked lsm/free lsm/friction lsm/nve lsm/plates lsm/leap lsm/absorb lsm/traction lsm/events create_lsm_fault include_beside "
           "lsm_variables lsm_run").split()
@@ -56,43 +57,14 @@ variable e equal etotal
 print "ENERGY $e"
 clear
 """
-# A sheared fault with friction, plates and events.
-FAULT = """units lj
-dimension 2
-boundary p f p
-newton off
-atom_style hybrid bond sphere
-atom_modify map array
-special_bonds lj/coul 0 1 1
-{geometry}
-comm_modify mode single cutoff 3.6
-neighbor 0.4 bin
-neigh_modify delay 0 every 10 check yes
-group lower type 5
-group upper type 6
-group plates union lower upper
-group blocks subtract all plates
-group below type 1 3 5
-group above type 2 4 6
-group lowerface type 3
-group upperface type 4
-bond_style lsm/linked
-bond_coeff 1 1.0
-pair_style lsm/friction
-pair_coeff * * off
-pair_coeff 3 4 1.0 1.0 0.6
-timestep 0.03
-fix move blocks lsm/nve viscosity 0.05
-fix plates all lsm/plates lower upper stress 0.02 stressramp 6 damping 0.05 velocity 0.02 ramp 6
-compute events all lsm/events faces lowerface upperface catalogue {name}.csv series {name}.pe ledger yes location yes resume yes
-thermo 1000
-thermo_style custom step c_events c_events[5] c_events[11]
-{runs}
-"""
 
 
 def fault(program, load, name, runs, geometry="create_lsm_fault length 20 width 14 seed 7 failures 300"):
-    Path("in.fault").write_text(load + FAULT.format(geometry=geometry, name=name, runs=runs))
+    """A sheared fault with friction, plates and events."""
+    words = dict(fix_lsm_nve=" viscosity 0.05", driving=" stressramp 6 damping 0.05 velocity 0.02 ramp 6", fix_lsm_plates="", leap="",
+                 events=f"faces lowerface upperface catalogue {name}.csv series {name}.pe ledger yes location yes resume yes",
+                 compute_lsm_events="\nthermo_style custom step c_events c_events[5] c_events[11]")
+    Path("in.fault").write_text(load + SCENE.format(geometry=geometry, runs=runs, **words))
     return run(program, "-in in.fault")
 
 

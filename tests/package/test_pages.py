@@ -16,7 +16,7 @@ boundary p f p
 newton off
 atom_style hybrid bond sphere
 atom_modify map array
-create_lsm_fault length 20 width 15 seed 1{create_lsm_fault}
+{geometry}
 special_bonds lj/coul 0 1 1
 bond_style lsm/linked
 bond_coeff * 1.0
@@ -38,8 +38,7 @@ fix move blocks lsm/nve{fix_lsm_nve}
 fix plates all lsm/plates lower upper stress 0.02{driving}{fix_lsm_plates}
 {leap}
 compute events all lsm/events {events}{compute_lsm_events}
-run 500
-lsm_run 1500 prefix state every 500{lsm_run}
+{runs}
 """
 LEAP = "fix leap all lsm/leap plates{fix_lsm_leap}"
 # Pages of styles with keywords
@@ -65,7 +64,10 @@ def ran(lmp, name, words="", status=0):
     files = "catalogue a.csv series a.pe" + slip * (name == "compute_lsm_events")
     leap = LEAP.format(fix_lsm_leap=parts["fix_lsm_leap"]) if name == "fix_lsm_leap" else ""
     driving = "" if name == "fix_lsm_plates" else " velocity 1e-4" if leap else " velocity 0.02"
-    Path("in.scene").write_text(SCENE.format(**parts, leap=leap, driving=driving, events=files))
+    Path("in.scene").write_text(
+        SCENE.format(**parts, leap=leap, driving=driving, events=files,
+                     geometry="create_lsm_fault length 20 width 15 seed 1" + parts["create_lsm_fault"],
+                     runs="run 500\nlsm_run 1500 prefix state every 500" + parts["lsm_run"]))
     return run(lmp, "-in in.scene", status=status)
 
 
