@@ -9,7 +9,6 @@
 #include "command.h"
 #include "explore_page.h"
 #include "input_file.h"
-#include "moment_rate_input.h"
 #include "new_file.h"
 #include "files/header_keys.h"
 #include "series_input.h"
@@ -132,8 +131,6 @@ class Explore : public Command {
   ExploreSettings page_;
   RunFiles series_ = {"--series", "PE series of the run", ".pe.bin"},
            ruptures_ = {"--ruptures", "Catalogue of the ruptures of the run", ".ruptures.csv"},
-           rates_ = {"--moment-rates", "Moment rates of the ruptures, of python3 -m lsm.sources",
-                     "-moment-rates.csv"},
            histories_ = {"--history", "Slip history of the run", ".slip.bin"};
   std::string output_ = "explore.html";
 
@@ -152,7 +149,7 @@ class Explore : public Command {
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
     OptionGroup beside(command,
                        "Files of the runs, in the order of their catalogues; none: leave it out");
-    for (RunFiles *files : {&series_, &ruptures_, &rates_, &histories_})
+    for (RunFiles *files : {&series_, &ruptures_, &histories_})
       beside.add(files->option, files->given, files->what, kind("FILE"),
                  shown(fmt::format("RUN{} beside RUN.catalogue.csv", files->ending)), one_each());
   }
@@ -196,9 +193,8 @@ class Explore : public Command {
   void run() override {
     const std::vector<std::string> &paths = catalogues_.paths;
     const auto series = series_.of(paths), histories = histories_.of(paths),
-               ruptures = ruptures_.of(paths), rates = rates_.of(paths);
-    for (const auto &files : {paths, series, histories, ruptures, rates})
-      refuse_input(output_, files);
+               ruptures = ruptures_.of(paths);
+    for (const auto &files : {paths, series, histories, ruptures}) refuse_input(output_, files);
     check_replaced(output_, overwrite, begins_with(std::string(head_of_page())));
     std::vector<ExploreRun> runs = load_events(ruptures);
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -207,10 +203,6 @@ class Explore : public Command {
         runs[i].series = load_series(series[i], catalogues_);
         check_same_run(drops, series[i], runs[i].series->info.header());
         check_same_start(drops, *runs[i].series);
-      }
-      if (!rates[i].empty()) {
-        runs[i].moment_rates = read_moment_rates(rates[i]);
-        check_same_run(drops, rates[i], runs[i].moment_rates->parameters);
       }
       if (histories[i].empty()) continue;
       SlipHistoryReader history = open_history(histories[i], catalogues_.lenient);
@@ -225,9 +217,6 @@ class Explore : public Command {
         fmt::print("{}: {} events, {} thresholds\n", kind.table.path, kind.table.events.size(),
                    kind.thresholds.size());
       if (one.series) fmt::print("{}: {} samples\n", one.series->path, one.series->samples);
-      if (one.moment_rates)
-        fmt::print("{}: moment rates of {} ruptures\n", one.moment_rates->path,
-                   one.moment_rates->ids.size());
       if (one.history)
         fmt::print("{}: {} places, {} times\n", one.history_path, one.history->columns,
                    one.history->ends.size());

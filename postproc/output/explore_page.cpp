@@ -109,12 +109,6 @@ json history_json(const SlipImage &image, const std::string &path, PageData &dat
           {"cells", data.add(image.cells)}};
 }
 
-json moment_rates_json(const MomentRates &all, PageData &data) {
-  return {{"file", all.path},           {"interval", all.interval},
-          {"ids", data.add(all.ids)},   {"firsts", data.add(all.firsts)},
-          {"many", data.add(all.many)}, {"rates", data.add(all.rates)}};
-}
-
 json bins_json(const std::vector<LogBin> &bins) {
   json out = json::array();
   for (const LogBin &bin : bins)
@@ -200,7 +194,6 @@ json run_json(const ExploreRun &run, PageData &data) {
   for (const ExploreEvents &kind : run.kinds) out["kinds"].push_back(events_json(kind, data));
   out["series"] = run.series ? series_json(*run.series, data) : json();
   out["history"] = run.history ? history_json(*run.history, run.history_path, data) : json();
-  out["momentRates"] = run.moment_rates ? moment_rates_json(*run.moment_rates, data) : json();
   return out;
 }
 

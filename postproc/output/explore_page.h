@@ -15,7 +15,6 @@
 #include "event_table.h"
 #include "files/catalogue.h"
 #include "files/pe_series.h"
-#include "moment_rates.h"
 #include "slip_image.h"
 #include "threshold_scan.h"
 
@@ -46,7 +45,6 @@ struct ExploreRun {
   std::optional<ExploreSeries> series;
   std::optional<SlipImage> history;
   std::string history_path;
-  std::optional<MomentRates> moment_rates;
 };
 
 struct ExploreSettings {

@@ -167,29 +167,10 @@ def test_postproc_reads_the_columns(postproc):
         if name != "fracture_energy":
             run(postproc, ["select", "b.sources.csv", "--where", f"{name} > -1e9", "-o", "all.csv", "--overwrite"])
     run(postproc, ["select", "b.sources.csv", "--where", "radiated_energy > 0", "-o", "some.csv"])
-    assert 0 < len(read_catalogue("some.csv")[1]["size"]) == (energy > 0).sum() < len(energy)
-
-
-def test_explore_reads_moment_rates(postproc):
-    for name in "catalogue.csv", "ruptures.csv", "slip.bin":
-        shutil.copy(DATA / f"fault.{name}", f"b.{name}")
-    run(SCRIPT, "b.ruptures.csv --no-picture")
-    many = len(read_catalogue("b.sources.csv")[1]["size"])
-    run(postproc, "explore b.catalogue.csv --ruptures b.sources.csv -o page.html").printed(f"b-moment-rates.csv: moment rates of {many} ruptures")
+    shutil.copy(DATA / "fault.catalogue.csv", "b.catalogue.csv")
+    run(postproc, "explore b.catalogue.csv --ruptures b.sources.csv -o page.html")
     assert "radiated_energy" in Path("page.html").read_text().split('id="data"')[1]
-    rates = Path("b-moment-rates.csv").read_text()
-    line = rates.splitlines()[9]
-    for old, new, said in (("# made by lsm", "# by lsm", "no moment rates, expected a file that begins with '# made by lsm.sources: moment rate'"),
-                           ("# spacing = ", "# spacing = -", "spacing is not above 0, expected a time"),
-                           ("# spacing = ", "# space = ", "parameter 'spacing' is missing"),
-                           ("event_id,time", "event_id,t", "expected 'event_id,time,moment_rate'"),
-                           (line, line + ",1", f":10: '{line},1', expected three numbers"),
-                           (line, line.rsplit(",", 1)[0] + ",x", ":10: .*, expected three numbers")):  # yapf: disable
-        assert old in rates
-        Path("c.csv").write_text(rates.replace(old, new, 1))
-        refused(postproc, "explore b.catalogue.csv --moment-rates c.csv -o x.html", f"c.csv.*{said}")
-    Path("c.csv").write_text(rates.replace("# seed = ", "# seed = 9", 1))
-    refused(postproc, "explore b.catalogue.csv --moment-rates c.csv -o x.html", "c.csv: seed = .*expected a file of the same run")
+    assert 0 < len(read_catalogue("some.csv")[1]["size"]) == (energy > 0).sum() < len(energy)
 
 
 def test_what_is_no_source_is_refused(work):

@@ -248,22 +248,11 @@ class Slip {
   }
 }
 
-/** Moment rates of ruptures, by their numbers: the time of the first, and all in equal intervals. */
-async function loadMomentRates(info) {
-  const ids = await unpackedNumbers(info.ids, Float64Array), firsts = await unpackedNumbers(info.firsts, Float64Array);
-  const many = await unpackedNumbers(info.many, Float64Array), rates = await unpackedNumbers(info.rates, Float32Array);
-  const found = new Map();
-  let at = 0;
-  ids.forEach((id, k) => { found.set(id, {first: firsts[k], interval: info.interval, rates: rates.subarray(at, at += many[k])}); });
-  return found;
-}
-
 async function loadRun(info) {
   return {
     info,
     kinds: await Promise.all(info.kinds.map(Events.load)),
     series: info.series ? await Series.load(info.series) : null,
-    slip: info.history ? await Slip.load(info.history) : null,
-    momentRates: info.momentRates ? await loadMomentRates(info.momentRates) : null
+    slip: info.history ? await Slip.load(info.history) : null
   };
 }

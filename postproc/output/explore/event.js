@@ -24,7 +24,7 @@ class EventPanel {
     this.find = id => document.getElementById(id);
     this.find('zoom-event').addEventListener('click', () => app.zoomToEvent());
     this.find('slip-map').addEventListener('pointermove', event => this.readSlip(event));
-    new ResizeObserver(oncePerFrame(() => { this.drawMomentRate(); this.drawSlip(); })).observe(this.find('event-numbers'));
+    new ResizeObserver(oncePerFrame(() => this.drawSlip())).observe(this.find('event-numbers'));
   }
 
   show(run, index) {
@@ -47,25 +47,11 @@ class EventPanel {
       list.append(pair);
     }
     this.showOthers(events);
-    this.drawMomentRate();
     this.drawSlip();
   }
 
   /** The width of pictures of the event. */
   get width() { return Math.min(640, this.find('event-numbers').clientWidth || 480); }
-
-  drawMomentRate() {
-    const events = this.run && this.app.eventsOf(this.run);
-    const source = events && events.info.kind === 'ruptures' && this.run.momentRates
-      ? this.run.momentRates.get(events.columns.event_id[this.index]) : undefined;
-    this.find('event-moment-rate').hidden = !source;
-    if (!source) return;
-    const canvas = this.find('moment-rate'), width = this.width, context = sharp(canvas, width, 200), {rates, interval} = source;
-    const span = rates.length * interval;
-    const most = drawSteps(context, rates, {x: 72, y: 8, w: width - 90, h: 150}, {from: 0, to: span, title: 'Time since it began'}, 'Moment rate');
-    canvas.setAttribute('aria-label', `Moment rate over ${short(span, 4)} time units, at most ${short(most, 4)}`);
-    canvas.dataset.moment = String(rates.reduce((sum, value) => sum + value * interval, 0));
-  }
 
   /** Ruptures within a drop of PE, or the drop of PE that a rupture is part of. */
   showOthers(events) {

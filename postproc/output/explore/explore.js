@@ -134,8 +134,7 @@ class App {
       return row;
     }));
     document.getElementById('program').textContent = this.page.program;
-    const files = this.runs.flatMap(({info}) => [...info.kinds.map(kind => kind.file), info.series && info.series.file, info.momentRates && info.momentRates.file,
-      info.history && info.history.file]);
+    const files = this.runs.flatMap(({info}) => [...info.kinds.map(kind => kind.file), info.series && info.series.file, info.history && info.history.file]);
     document.getElementById('files').textContent = files.filter(Boolean).join(', ');
   }
 

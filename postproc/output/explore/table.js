@@ -71,11 +71,9 @@ class EventTable {
       return row;
     }));
     const left = events.info.count - events.info.listed;
-    const printed = 25;   // as in explore.css
-    this.find('table-count').replaceChildren(`${this.indices.length} of ${events.info.count} events` +
-      (left > 0 ? `; the ${left} smallest are not on this page` : ''),
-      element('span', this.indices.length > this.rows ? `, the first ${this.rows} shown` : '', {class: 'on-screen'}),
-      element('span', this.indices.length > printed ? `, the first ${printed} printed` : '', {class: 'on-paper'}));
+    this.find('table-count').textContent = `${this.indices.length} of ${events.info.count} events` +
+      (left > 0 ? `; the ${left} smallest are not on this page` : '') +
+      (this.indices.length > this.rows ? `, the first ${this.rows} shown` : '');
     this.find('more-rows').hidden = this.indices.length <= this.rows;
   }
 
