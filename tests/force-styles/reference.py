@@ -30,7 +30,6 @@ class Scene:
         else:
             counts, rise = (4, 4, 4), 1.0
             self.box = (4.0, 4.0, 4.0)
-        self.open = False  # no images along y
         self.x, self.v, self.radius, self.density, self.type = [], [], [], [], []
         for kz, ky, kx in itertools.product(*(range(n) for n in reversed(counts))):
             site = [kx + 0.25 + (0.5 * (ky % 2) if dim == 2 else 0.25), (ky + 0.5) * rise, kz + 0.5]
@@ -52,7 +51,7 @@ class Scene:
     def distance(self, x, i, j):
         """Vector from j to i, of the nearest image, and its length."""
         d = [a - b for a, b in zip(x[i], x[j])]
-        d = [c if self.open and n == 1 else c - b * round(c / b) for n, (c, b) in enumerate(zip(d, self.box))]
+        d = [c - b * round(c / b) for c, b in zip(d, self.box)]
         return d, math.sqrt(math.fsum(c * c for c in d))
 
     def write(self, path):
@@ -124,91 +123,27 @@ def turned(v, a, b):
     return [p + q + r / (1.0 + dot(a, b)) for p, q, r in zip(v, once, cross(w, once))]
 
 
-def root(rising, high):
-    """Where a rising function is 0 between 0 and high, by bisection."""
-    low = 0.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if rising(middle) < 0.0 else (low, middle)
-    return 0.5 * (low + high)
-
-
-# Friction laws: from the contact's memory, the length of the trial elongation, that of the displacement in the step, the
-# normal force and the time in contact, the length that is left. The memory has whether the contact slides.
-
-
-def coulomb(law, memory, trial, _moved, normal, _time):
-    """kt, mu, mu_static"""
-    memory["slides"] = law["kt"] * trial > law["mu" if memory["slides"] else "mu_static"] * normal
-    return law["mu"] * normal / law["kt"] if memory["slides"] else trial
-
-
-def slip_weakening(law, memory, trial, _moved, normal, _time):
-    """kt, mu, mu_static, dc; without healing"""
-
-    def excess(slip):
-        weak = min((memory.get("slip", 0.0) + slip) / law["dc"], 1.0)
-        return law["kt"] * (trial - slip) - normal * (law["mu_static"] - (law["mu_static"] - law["mu"]) * weak)
-
-    memory["slides"] = excess(0.0) > 0.0
-    if not memory["slides"]:
-        return trial
-    slip = root(lambda slip: -excess(slip), trial)  # the first root: the excess falls as long as kt exceeds the weakening
-    memory["slip"] = min(memory.get("slip", 0.0) + slip, law["dc"])
-    return trial - slip
-
-
-def velocity_weakening(law, memory, trial, moved, normal, time):
-    """kt, mu, vc"""
-    left = law["mu"] * normal / (1.0 + moved / time / law["vc"]) / law["kt"]
-    memory["slides"] = trial > left
-    return min(trial, left)
-
-
-def rate_state(evolve):
-    """kt, mu, a, b, dc, v0"""
-
-    def left(law, memory, trial, _moved, normal, time):
-        theta = memory.get("theta", law["dc"] / law["v0"])
-        factor = math.exp((law["mu"] + law["b"] * math.log(law["v0"] * theta / law["dc"])) / law["a"]) / (2.0 * law["v0"])
-        v = root(lambda v: normal * law["a"] * math.asinh(v * factor) - law["kt"] * (trial - v * time), trial / time)
-        memory["slides"] = True
-        memory["theta"] = evolve(theta, v * time / law["dc"], v / law["dc"])
-        return trial - v * time
-
-    return left
-
-
-ageing = rate_state(lambda theta, slip, rate: 1.0 / rate + (theta - 1.0 / rate) * math.exp(-slip))
-slip_law = rate_state(lambda theta, slip, rate: (rate * theta)**math.exp(-slip) / rate)
-
-
 class Model:
     """State of a run: positions, velocities, links that hold, contacts with friction."""
 
-    def __init__(self, scene, links, pairs, *fixes):
-        """fixes: Plates and Border; links: by bond type ('lsm', k, ratio or None, retardation time) or ('harmonic', K, r0); pairs: by atom types None
-        (off) or a dict of k, tau, and with friction law (a function), located and the coefficients of the law"""
-        self.scene, self.links, self.pairs, self.fixes = scene, links, pairs, fixes
+    def __init__(self, scene, links, pairs):
+        """links: by bond type ('lsm', k, ratio or None) or ('harmonic', K, r0); pairs: by atom types None (off) or a dict of k, and with
+        friction kt, mu, mu_static and located"""
+        self.scene, self.links, self.pairs = scene, links, pairs
         self.x, self.v = [list(x) for x in scene.x], [list(v) for v in scene.v]
-        self.now = self.v  # velocities at the time of the positions
         self.bonds = dict(scene.bonds)
-        self.contacts = {}  # pair: (elongation, vector from j to i, memory of the law or "near")
+        self.contacts = {}  # pair: (elongation, vector from j to i, whether it slides, or "near")
         self.work = 0.0  # taken by the viscosity
         self.seen = set()  # what has happened, so that a scene that tests little is noticed
         self.linked = set(self.bonds)
         self.evaluate(first=True)
 
-    def rate(self, i, j, d, r):
-        return dot([a - b for a, b in zip(self.now[i], self.now[j])], d) / r
-
-    def evaluate(self, first=False, dt=0.0):
+    def evaluate(self, first=False):
         scene = self.scene
         self.bond, self.pair = Forces(len(self.x)), Forces(len(self.x))
         for (i, j), kind in list(self.bonds.items()):
             d, r = scene.distance(self.x, i, j)
-            style, k, other, *tau = self.links[kind]
-            drag = 0.0
+            style, k, other = self.links[kind]
             if style == "harmonic":
                 k, r0 = 2.0 * k, other
             else:
@@ -218,9 +153,7 @@ class Model:
                     self.linked.discard((i, j))
                     self.seen.add("break")
                     continue
-            if tau:
-                drag = k * tau[0] * self.rate(i, j, d, r)
-            self.bond.add(i, j, d, [-(k * (r - r0) + drag) * c / r for c in d], 0.5 * k * (r - r0)**2, k)
+            self.bond.add(i, j, d, [-k * (r - r0) * c / r for c in d], 0.5 * k * (r - r0)**2, k)
             self.seen.add("pull" if r > r0 else "push")
         for i, j in itertools.combinations(range(len(self.x)), 2):
             if (i, j) in self.linked:
@@ -232,53 +165,50 @@ class Model:
                 self.contacts.pop((i, j), None)
                 continue
             k = law["k"]
-            normal = max(k * (r0 - r) - (k * law["tau"] * self.rate(i, j, d, r) if "tau" in law else 0.0), 0.0)
+            normal = max(k * (r0 - r), 0.0)
             energy, kt, xi = 0.0, 0.0, [0.0, 0.0, 0.0]
-            if "law" in law:
-                xi, kt = self.friction(i, j, d, r, r0, law, normal, first, dt), law["kt"]
+            if "kt" in law:
+                xi, kt = self.friction(i, j, d, r, r0, law, normal, first), law["kt"]
                 energy = 0.5 * kt * dot(xi, xi)
             if r < r0:
                 self.pair.add(i, j, d, [normal * c / r - kt * e for c, e in zip(d, xi)], 0.5 * k * (r0 - r)**2 + energy, k + kt)
-                self.seen.add("contact" if normal else "no pull")
+                self.seen.add("contact")
         self.force = Forces.total(self.bond, self.pair)
-        for one in self.fixes:
-            one.act(self, dt)
 
-    def friction(self, i, j, d, r, r0, law, normal, first, dt):
+    def friction(self, i, j, d, r, r0, law, normal, first):
         """Updates the tangential spring of a pair. Returns its elongation."""
         before = self.contacts.get((i, j))
         if r >= r0:
             # The pair separates or approaches: from now on its vector is known.
             self.contacts[i, j] = ([0.0, 0.0, 0.0], d, "near")
             return [0.0, 0.0, 0.0]
-        xi, memory = [0.0, 0.0, 0.0], {"slides": False}
+        xi, slides = [0.0, 0.0, 0.0], False
         if before and not first:
-            xi, old, memory = before
+            xi, old, slides = before
             # The elongation grows by the displacement across the normal in the middle of the step; both turn with the normal.
             n, middle = unit(d), unit([a + b for a, b in zip(d, old)])
             moved = [a - b for a, b in zip(d, old)]
             along = dot(moved, middle)
             share = 1.0
-            if memory == "near":
+            if slides == "near":
                 was = math.sqrt(dot(old, old))
                 share = (r0 - r) / (was - r) if law["located"] else 0.0
-                memory = {"slides": False}
+                slides = False
                 self.seen.add("begin")
             moved = turned([share * (a - along * m) for a, m in zip(moved, middle)], middle, n)
             xi = [a + b for a, b in zip(turned(xi, unit(old), n), moved)]
             trial = math.sqrt(dot(xi, xi))
-            left = law["law"](law, memory, trial, math.sqrt(dot(moved, moved)), normal, share * dt)
-            if memory["slides"]:
-                xi = [left / trial * c for c in xi]
-            self.seen.add("slide" if memory["slides"] else "stick")
-        self.contacts[i, j] = (xi, d, memory)
+            slides = law["kt"] * trial > law["mu" if slides else "mu_static"] * normal
+            if slides:
+                xi = [law["mu"] * normal / law["kt"] / trial * c for c in xi]
+            self.seen.add("slide" if slides else "stick")
+        self.contacts[i, j] = (xi, d, slides)
         return xi
 
     def step(self, dt, viscosity=None, moving=None):
         """A step of velocity Verlet. viscosity: by atom type; velocities decay exactly for half a step before and after it."""
         scene = self.scene
-        held = {n for one in self.fixes for n in one.holds}
-        who = [n for n in range(len(self.x)) if (moving is None or scene.type[n] in moving) and n not in held]
+        who = [n for n in range(len(self.x)) if moving is None or scene.type[n] in moving]
 
         def decay():
             for n in who if viscosity else ():
@@ -292,98 +222,11 @@ class Model:
 
         decay()
         kick()
-        for one in self.fixes:
-            one.move(self, dt)
-        # Velocities at the time of the next forces: extrapolated with the last ones.
-        self.now = [list(v) for v in self.v]
         for n in who:
-            self.now[n] = [v + 0.5 * dt / scene.mass[n] * f for v, f in zip(self.v[n], self.force[n])]
             self.x[n] = [x + dt * v for x, v in zip(self.x[n], self.v[n])]
-        self.evaluate(dt=dt)
+        self.evaluate()
         kick()
         decay()
-        for one in self.fixes:
-            one.end_step(self, dt)
-
-
-class Border:
-    """fix lsm/absorb: dashpots at particles. The force is that of the velocity at its time, with its own share included."""
-    holds = ()
-
-    def __init__(self, who, dashpots):
-        self.who, self.dashpots, self.scalar, self.vector, self.power = who, dashpots, 0.0, None, None
-
-    def act(self, model, dt):
-        power = []
-        for n in self.who:
-            for c, drag in enumerate(self.dashpots):
-                half = 0.5 * dt / model.scene.mass[n]
-                v = (model.v[n][c] + half * model.force[n][c]) / (1.0 + half * drag)
-                model.force[n][c] -= drag * v
-                power.append(drag * v * v)
-        self.scalar += 0.5 * dt * (math.fsum(power) + (self.power or 0.0))
-        self.power = math.fsum(power)
-
-    def move(self, model, dt):
-        pass
-
-    end_step = move
-
-
-class Plates:
-    """fix lsm/plates with a given stress: along x the velocity is prescribed, along y a plate is a rigid body."""
-
-    def __init__(self, lower, upper, scene, velocity, ramp, stress, stressramp, damping, impedance):
-        self.sides, self.holds, self.length = ((-1.0, lower), (1.0, upper)), lower + upper, scene.box[0]
-        self.mass = [math.fsum(scene.mass[n] for n in who) for _, who in self.sides]
-        self.vy = [math.fsum(scene.mass[n] * scene.v[n][1] for n in who) / m for (_, who), m in zip(self.sides, self.mass)]
-        self.velocity, self.stress = lambda t: velocity * min(t / ramp, 1.0), lambda t: stress * min(t / stressramp, 1.0)
-        self.decay = [damping + impedance * self.length / m for m in self.mass]
-        self.time, self.scalar, self.shear, self.approach = 0.0, 0.0, 0.0, 0.0
-
-    def forces(self, model, c):
-        return [math.fsum(model.force[n][c] for n in who) for _, who in self.sides]
-
-    def act(self, model, dt):
-        pass
-
-    def damp(self, dt):
-        for p, (rate, m) in enumerate(zip(self.decay, self.mass)):
-            after = self.vy[p] * math.exp(-0.5 * rate * dt)
-            self.scalar -= 0.5 * m * (self.vy[p]**2 - after**2)
-            self.vy[p] = after
-
-    def kick(self, model, dt):
-        for p, (f, (side, _), m) in enumerate(zip(self.forces(model, 1), self.sides, self.mass)):
-            self.vy[p] += 0.5 * dt * (f - side * self.stress(self.time) * self.length) / m
-
-    def drive(self, model, dt):
-        self.scalar -= 0.5 * self.moved * math.fsum(side * f for (side, _), f in zip(self.sides, self.forces(model, 0)))
-
-    def move(self, model, dt):
-        self.moved = dt * self.velocity(self.time + 0.5 * dt)
-        self.drive(model, dt)
-        self.damp(dt)
-        self.kick(model, dt)
-        for (side, who), vy in zip(self.sides, self.vy):
-            self.scalar -= 0.5 * (self.stress(self.time) + self.stress(self.time + dt)) * self.length * side * dt * vy
-            self.approach -= side * dt * vy
-            for n in who:
-                model.x[n] = [model.x[n][0] + side * self.moved, model.x[n][1] + dt * vy, model.x[n][2]]
-        self.shear += 2.0 * self.moved
-        self.time += dt
-
-    def end_step(self, model, dt):
-        self.drive(model, dt)
-        self.kick(model, dt)
-        self.damp(dt)
-        for (side, who), vy in zip(self.sides, self.vy):
-            for n in who:
-                model.v[n] = [side * self.velocity(self.time), vy, 0.0]
-        shear = [-side * f / self.length for (side, _), f in zip(self.sides, self.forces(model, 0))]
-        normal = [side * f / self.length for (side, _), f in zip(self.sides, self.forces(model, 1))]
-        kinetic = math.fsum(0.5 * m * v * v for m, v in zip(self.mass, self.vy))
-        self.vector = [0.5 * sum(shear), 0.5 * sum(normal), sum(shear) / sum(normal), *shear, *normal, self.shear, self.approach, kinetic]
 
 
 def lines(values):
@@ -455,27 +298,23 @@ def force_test(folder, kind, name, scene, dim, links, pairs, styles, expected, p
     return epsilon
 
 
-def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post, expected, *fixes):
+def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post, expected):
     """yaml file of test_fix_timestep: positions and velocities after 8 steps of 0.25"""
-    model = Model(scene, links, pairs, *fixes)
+    model = Model(scene, links, pairs)
     for _ in range(8):
         model.step(0.25, viscosity, moving)
     if not expected <= model.seen:
         raise SystemExit(f"{name}: nothing in the scene did: {expected - model.seen}")
-    scalar, vector = (fixes[0].scalar, fixes[0].vector) if fixes else (model.work, [0, 0])
     # Rounding errors of positions in each step, and the resulting errors of velocities, do not grow
     # much in 8 steps.
     reach = 0.5 * max(scene.box)
-    epsilon = max(8.0 * ROUNDING * reach / abs(c) for values in (model.x, model.v, [[c or reach, reach] for c in vector or ()]) for v in values
-                  for c in v[:2])
+    epsilon = max(8.0 * ROUNDING * reach / abs(c) for values in (model.x, model.v) for v in values for c in v[:2])
     if not epsilon < 1e-10:
         raise SystemExit(f"{name}: a component near 0 makes epsilon {epsilon:g}; choose another seed")
     post = post + f"\nfix test {options}\nrun_style verlet"
     top, tail = head(epsilon, "", f"fix {options.split()[1]}\npair lsm/friction\nbond lsm/linked",
-                     "variable dim index 2\nvariable links index molecular" + ("\nvariable border index f" if scene.open else ""), post, len(scene.x))
-    tail.append(("global_scalar", repr(scalar)))
-    if vector:
-        tail.append(("global_vector", "|-\n  " + " ".join(map(repr, [len(vector), *vector]))))
+                     "variable dim index 2\nvariable links index molecular", post, len(scene.x))
+    tail += [("global_scalar", repr(model.work)), ("global_vector", "|-\n  2 0 0")]
     tail += [("run_pos", "|2" + lines(model.x)), ("run_vel", "|2" + lines(model.v)), ("run_torque", "|2" + lines([[0.0] * 3] * len(model.x)))]
     write_yaml(os.path.join(folder, f"fix-{name}.yaml"), top, tail)
     return epsilon
@@ -521,7 +360,7 @@ def main():
                                      ("lsm_friction_static", "located", 0.9, 2), ("lsm_friction_3d", "located", 0.6, 3), ("lsm_friction_static_3d",
                                                                                                                           "located", 0.9, 3)):
         law = {
-            pair: {"law": coulomb, "located": onset == "located", "k": k, "kt": kt, "mu": mu, "mu_static": max(mu, held)}
+            pair: {"located": onset == "located", "k": k, "kt": kt, "mu": mu, "mu_static": max(mu, held)}
             for pair, k, kt, mu, held in (((1, 1), 1.3, 0.8, 0.6, static), ((1, 2), 0.9, 1.0, 0.6, static), ((2, 2), 1.1, 1.2, 0.3, 0.3))
         }
         text = "\n".join(f"{i} {j} {c['k']} {c['kt']} {c['mu']}" + (f" {c['mu_static']}" if c["mu_static"] > c["mu"] else "")
@@ -529,51 +368,16 @@ def main():
         done[f"pair-{name}"] = force_test(folder, "pair", name, scenes[dim], dim, plain, law,
                                           (text, f"lsm/friction onset {onset}", "k 2\non 1\nkt 2\nmu 2"), both | {"stick", "slide", "begin"},
                                           post=bond_post(plain_text))
-    # coefficients after k and kt, and those of the pairs 2 2
-    laws = {
-        "slip-weakening": (slip_weakening, {"mu": 0.3, "mu_static": 0.6, "dc": 0.05}, {"mu": 0.1, "mu_static": 0.2}),
-        "velocity-weakening": (velocity_weakening, {"mu": 0.6, "vc": 0.2}, {"mu": 0.2, "vc": 1.0}),
-        "rate-state-ageing": (ageing, {"mu": 0.6, "a": 0.03, "b": 0.02, "dc": 0.01, "v0": 0.05}, {"b": 0.05}),
-        "rate-state-slip": (slip_law, {"mu": 0.6, "a": 0.03, "b": 0.02, "dc": 0.01, "v0": 0.05}, {"b": 0.05})
-    }
-    for (word, (function, usual, other)), dim in itertools.product(laws.items(), (2, 3)):
-        law = {
-            pair: {"law": function, "located": True, "k": k, "kt": kt, **usual, **(other if pair == (2, 2) else {})}
-            for pair, k, kt in (((1, 1), 1.3, 0.8), ((1, 2), 0.9, 1.0), ((2, 2), 1.1, 1.2))
-        }
-        text = "\n".join(f"{i} {j} {c['k']} {c['kt']} " + " ".join(f"{key} {c[key]}" for key in usual) for (i, j), c in law.items())
-        name = f"lsm_friction_{word.replace('-', '_')}_{dim}d"
-        done[f"pair-{name}"] = force_test(folder, "pair", name, scenes[dim], dim, plain, law,
-                                          (text, f"lsm/friction {word}", "k 2\non 1\nkt 2\n" + "\n".join(f"{key} 2" for key in usual)),
-                                          both | {"slide", "begin"} | (set() if "rate" in word else {"stick"}), post=bond_post(plain_text))
-    law = {pair: {"law": coulomb, "located": True, "k": 1.0, "kt": 0.8, "mu": 0.6, "mu_static": 0.6} for pair in ((1, 1), (1, 2), (2, 2))}
+    law = {pair: {"located": True, "k": 1.0, "kt": 0.8, "mu": 0.6, "mu_static": 0.6} for pair in ((1, 1), (1, 2), (2, 2))}
     soft = {kind: ("lsm", 0.5, None) for kind in (1, 2, 3)}
     what = both | {"stick", "slide", "begin"}
 
-    def styles(of_links="", of_contacts=""):
-        return (f"pair_style lsm/friction\npair_coeff * * 1.0 0.8 0.6{of_contacts}\nbond_style lsm/linked\nbond_coeff * 0.5{of_links}\n"
-                "angle_style none\ncompute events all lsm/events ledger yes")
+    styles = ("pair_style lsm/friction\npair_coeff * * 1.0 0.8 0.6\nbond_style lsm/linked\nbond_coeff * 0.5\n"
+              "angle_style none\ncompute events all lsm/events ledger yes")
 
-    done["fix-lsm_nve"] = fix_test(folder, "lsm_nve", blocks, soft, law, "solute lsm/nve dtcheck off", (1,), None, styles(), what)
+    done["fix-lsm_nve"] = fix_test(folder, "lsm_nve", blocks, soft, law, "solute lsm/nve dtcheck off", (1,), None, styles, what)
     done["fix-lsm_nve_viscosity"] = fix_test(folder, "lsm_nve_viscosity", blocks, soft, law,
-                                             "all lsm/nve viscosity 0.05 viscosity/type 2 0.3 dtcheck off", None, {1: 0.05, 2: 0.3}, styles(), what)
-    for name, of_links, of_contacts in (("links", 0.4, 0.0), ("contacts", 0.0, 0.6), ("both", 0.4, 0.6)):
-        done[f"fix-lsm_nve_kelvin_voigt_{name}"] = fix_test(folder, f"lsm_nve_kelvin_voigt_{name}", blocks,
-                                                            {kind: (*link, of_links)
-                                                             for kind, link in soft.items()},
-                                                            {pair: {**one, "tau": of_contacts}
-                                                             for pair, one in law.items()}, "all lsm/nve dtcheck off", None, None,
-                                                            styles(f" kelvin-voigt {of_links}",
-                                                                   f" kelvin-voigt {of_contacts}"), what | ({"no pull"} if of_contacts else set()))
-    rows = list(range(8)), list(range(56, 64))
-    groups = "\ngroup lower id 1:8\ngroup upper id 57:64\ngroup between subtract all lower upper"
-    done["fix-lsm_absorb"] = fix_test(folder, "lsm_absorb", blocks, soft, law, "lower lsm/absorb y 0.3 0.2 1.5", None, None,
-                                      styles() + groups + "\nfix move all lsm/nve dtcheck off", what, Border(rows[0], (0.3, 0.45)))
-    blocks.open = True
-    plates = dict(velocity=0.05, ramp=1.0, stress=0.03, stressramp=0.8, damping=0.2, impedance=0.1)
-    words = " ".join(f"{key} {value}" for key, value in plates.items())
-    done["fix-lsm_plates"] = fix_test(folder, "lsm_plates", blocks, soft, law, f"all lsm/plates lower upper {words}", None, None,
-                                      styles() + groups + "\nfix move between lsm/nve dtcheck off", what, Plates(*rows, blocks, **plates))
+                                             "all lsm/nve viscosity 0.05 viscosity/type 2 0.3 dtcheck off", None, {1: 0.05, 2: 0.3}, styles, what)
     for name, epsilon in done.items():
         print(f"{name:32} epsilon {epsilon:.0e}")
 
