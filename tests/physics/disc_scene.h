@@ -66,6 +66,35 @@ compute           events all lsm/events ledger yes strainlimit 10
 )" + disc_columns;
 }
 
+inline const std::string lattice_of_41 =
+    "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
+
+/// A fault in a lattice between absorbing borders, in which a patch of higher stress breaks.
+/// \param begin  how particles come
+/// \param links, across, contacts  more coefficients, of links of type 1, 2 and of contacts
+inline std::string lattice_fault(const std::string &begin = lattice_of_41,
+                                 const std::string &box = "f f p", const std::string &links = "",
+                                 const std::string &across = "", const std::string &contacts = "") {
+  return "variable newton index off\nunits lj\ndimension 2\nboundary " + box +
+         "\nnewton ${newton}\natom_style hybrid bond sphere\n"
+         "atom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
+         begin +
+         "\ncomm_modify mode single cutoff 1.8\nneighbor 0.1 bin\n"
+         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
+         "bond_style lsm/linked\nbond_coeff 1 1.0" +
+         links + "\nbond_coeff 2 0.5" + across +
+         "\npair_style lsm/friction slip-weakening\npair_coeff * * off\n"
+         "pair_coeff 3 4 1.0 10.0 mu 0.5 mu_static 0.7 dc 3e-4" +
+         contacts +
+         "\nvariable shear atom 6e-4+1.2e-4*(abs(x)<4)\n"
+         "fix load all lsm/traction lower upper 1e-3 v_shear\n"
+         "fix caps caps lsm/absorb y 1.2 0.7 1.0\nfix move all lsm/nve\ntimestep 0.1\n"
+         "compute events all lsm/events ledger yes progress no\n"
+         "thermo_style custom step ke c_events[6] c_events[11] c_events[12] c_events[13] "
+         "c_events[15] c_events[16]\n"
+         "thermo_modify norm no format float %.17g\nthermo 100\n";
+}
+
 }  // namespace physics
 
 #endif

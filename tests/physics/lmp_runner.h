@@ -18,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,21 @@ inline std::string text(double value) {
   out.precision(17);
   out << value;
   return out.str();
+}
+
+/// A script with other words at one place, where `from` is.
+inline std::string replaced(std::string script, const std::string &from, const std::string &to) {
+  const std::size_t at = script.find(from);
+  if (at == std::string::npos) throw std::runtime_error("'" + from + "' is not in the script");
+  return script.replace(at, from.size(), to);
+}
+/// The same for all from `from` up to the next `until`.
+inline std::string replaced(const std::string &script, const std::string &from,
+                            const std::string &until, const std::string &to) {
+  const std::size_t at = script.find(from), end = script.find(until, at);
+  if (end == std::string::npos)
+    throw std::runtime_error("'" + from + "' to '" + until + "' is not in the script");
+  return replaced(script, script.substr(at, end - at), to);
 }
 
 /// Results of a run.
@@ -63,6 +79,12 @@ struct Result {
     if (found != printed.end()) return found->second;
     ADD_FAILURE() << "no line '" << name << " = ' in:\n" << output;
     return std::numeric_limits<double>::quiet_NaN();
+  }
+  /// The last rows only.
+  Result tail(std::size_t rows) const {
+    Result out = *this;
+    out.thermo.erase(out.thermo.begin(), out.thermo.end() - static_cast<std::ptrdiff_t>(rows));
+    return out;
   }
   /// Lines of the output that contain the given text.
   std::vector<std::string> lines_with(const std::string &part) const {
@@ -131,6 +153,14 @@ class Lmp : public ::testing::Test {
   }
   static Result ran(const std::string &script, const Variables &variables = {}, int ranks = 1) {
     return good(run_text(script, variables, ranks));
+  }
+  /// Calls act(newton, ranks) for runs that are to be as that of one rank with newton off.
+  template <class Act>
+  static void each_split(const Act &act) {
+    for (const auto &[newton, ranks] : {std::pair("on", 1), {"off", 2}, {"on", 4}}) {
+      SCOPED_TRACE("newton " + std::string(newton) + ", ranks " + std::to_string(ranks));
+      act(Variables{{"newton", newton}}, ranks);
+    }
   }
   /// Expects one line of error with all the given parts.
   static void refused(const std::vector<std::string> &parts, const std::string &script,
@@ -231,6 +261,13 @@ inline double thermo_difference(const Result &a, const Result &b,
     if (scale > 0.0) worst = std::max(worst, off / scale);
   }
   return worst;
+}
+
+/// Expects the same last values, but for a relative error.
+inline void expect_near(const Result &a, const Result &b, const std::vector<std::string> &columns,
+                        double tolerance) {
+  for (const std::string &column : columns)
+    EXPECT_NEAR(a.last(column), b.last(column), tolerance * std::fabs(b.last(column))) << column;
 }
 
 }  // namespace physics

@@ -81,35 +81,12 @@ TEST_F(Benchmark, EnergyIsBalanced) {
   }
 }
 
-// A lattice in model units, of 40 by 16 discs, in which a patch of higher stress breaks.
-static std::string lattice(const std::string &begin, const std::string &box = "f f p") {
-  return "units lj\ndimension 2\nboundary " + box +
-         "\nnewton off\natom_style hybrid bond sphere\n"
-         "atom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
-         begin +
-         "\ncomm_modify mode single cutoff 1.8\nneighbor 0.1 bin\n"
-         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
-         "bond_style lsm/linked\nbond_coeff 1 1.0\nbond_coeff 2 0.5\n"
-         "pair_style lsm/friction slip-weakening\npair_coeff * * off\n"
-         "pair_coeff 3 4 1.0 10.0 mu 0.5 mu_static 0.7 dc 3e-4\n"
-         "variable shear atom 6e-4+1.2e-4*(abs(x)<4)\n"
-         "fix load all lsm/traction lower upper 1e-3 v_shear\n"
-         "fix caps caps lsm/absorb y 1.2 0.7 1.0\nfix move all lsm/nve\ntimestep 0.1\n"
-         "compute events all lsm/events ledger yes progress no\n"
-         "thermo_style custom step ke c_events[6] c_events[11] c_events[15] c_events[16]\n"
-         "thermo_modify norm no format float %.17g\nthermo 100\n";
-}
-static const std::string created =
-    "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
-
 // Rate-and-state friction between borders that strengthen, with a stress that still grows when the
 // restart file is written.
 TEST_F(Benchmark, RateAndStateRuptureGoesOnByteForByte) {
   const auto script = [](const std::string &begin, const std::string &set) {
-    std::string all = lattice(begin);
-    const auto from = all.find("pair_style"), to = all.find("fix caps");
-    return all.replace(
-        from, to - from,
+    return replaced(
+        lattice_fault(begin), "pair_style", "fix caps",
         "fix own all property/atom d_a d_theta ghost yes\n" + set +
             "pair_style lsm/friction rate-state-ageing mu 0.6 a d_a b 0.012 dc 1e-6 v0 1e-9 "
             "theta d_theta\npair_coeff * * off\npair_coeff 3 4 1.0 10.0\n"
@@ -123,7 +100,7 @@ TEST_F(Benchmark, RateAndStateRuptureGoesOnByteForByte) {
   Result one;
   for (const int ranks : {1, 2}) {
     const Result whole =
-        ran(script(created, set) + "run 100\nwrite_restart half.restart\n" + end, {}, ranks);
+        ran(script(lattice_of_41, set) + "run 100\nwrite_restart half.restart\n" + end, {}, ranks);
     const std::string expected = read_file(path("end.dump"));
     EXPECT_GT(expected.size(), 10000u);
     ran(script("read_restart half.restart", "") + end, {}, ranks);
@@ -138,7 +115,8 @@ TEST_F(Benchmark, PeriodicLatticeSlidesAsAWhole) {
   // The stress exceeds the strength everywhere on the fault: it drops to the dynamic friction, and
   // nothing depends on x, not even across the border of the box.
   const Result r =
-      ran(lattice("create_lsm_fault lattice length 40 width 16 spacing 1.0 mass r2 4.0", "p f p") +
+      ran(lattice_fault("create_lsm_fault lattice length 40 width 16 spacing 1.0 mass r2 4.0",
+                        "p f p") +
           "unfix load\nfix load all lsm/traction lower upper 1e-3 7.5e-4\nrun 200\n"
           "compute least all reduce min vx\ncompute most all reduce max vx\n"
           "group top type 4\ncompute a top reduce min vx\ncompute b top reduce max vx\n"
@@ -255,7 +233,7 @@ TEST_F(Benchmark, MirroredPackingSlipsAsItsMirrorImage) {
 }
 
 TEST_F(Benchmark, WrongInputIsNamed) {
-  const std::string begin = lattice(created);
+  const std::string begin = lattice_fault();
   refused({"types is 5, but must be at least 6"}, packing("0", "", "types 5"));
   // Refused are blocks with a gap between them, discs near the line that do not touch it, and
   // blocks that are not mirror images.

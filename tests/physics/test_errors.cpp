@@ -70,11 +70,10 @@ TEST_F(BadInput, MessagesPointToTheWord) {
 }
 
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
-  std::string script = fault_read() + fault_shear(
-                                          "catalogue blown.csv series blown.pe emergency "
-                                          "blown.restart nonpositive yes picker literal");
-  const std::string fix = "viscosity ${viscosity}\n";
-  script.replace(script.find(fix), fix.size(), "viscosity ${viscosity} dtcheck off\n");
+  const std::string script =
+      replaced(fault_read() + fault_shear("catalogue blown.csv series blown.pe emergency "
+                                          "blown.restart nonpositive yes picker literal"),
+               "viscosity ${viscosity}\n", "viscosity ${viscosity} dtcheck off\n");
   for (int ranks : {1, 2})
     for (const char *dt : {"0.13", "0.2"}) {
       for (const char *file : {"blown.csv", "blown.pe"}) std::filesystem::remove(path(file));

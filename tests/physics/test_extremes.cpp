@@ -169,10 +169,7 @@ TEST_F(Extremes, RefusedOrStopped) {
     if (!lines.empty()) outcome(name, "stopped: " + lines[0].substr(0, lines[0].find(" (/")));
   }
 
-  std::string empty = small_fault();
-  const std::string lower = "type 5";
-  empty.replace(empty.find(lower), lower.size(), "empty");
-  refused({"lower", "particles"}, empty);
+  refused({"lower", "particles"}, replaced(small_fault(), "type 5", "empty"));
   outcome("a plate without particles", "refused: the plate has no particles");
 }
 
@@ -273,10 +270,8 @@ TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
   // A run from a restart file continues as well.
   const std::string rest = "timestep 1.0\nrun 1\nwrite_restart two.restart\n";
   ran(discs("2.04") + rest);
-  std::string again = discs("2.04");
-  const auto from = again.find("region "), to = again.find("bond_style");
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
-  again.replace(from, to - from, "read_restart two.restart\n");
+  const std::string again =
+      replaced(discs("2.04"), "region ", "bond_style", "read_restart two.restart\n");
   const Result restarted = ran(again + start);
   EXPECT_NE(restarted.output.find("nearly closed"), std::string::npos);
 }
@@ -386,7 +381,7 @@ run               50
 write_dump        all custom after.FILE id x y fx fy fz tqx tqz modify sort id format float %.17g
 )";
   const auto with = [&](std::string text, const std::string &other, const std::string &file) {
-    text.replace(text.find("OTHER"), 5, other);
+    text = replaced(text, "OTHER", other);
     for (std::size_t at; (at = text.find("FILE")) != std::string::npos;) text.replace(at, 4, file);
     return text;
   };

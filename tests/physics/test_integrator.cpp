@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "lmp_runner.h"
+#include "eigenvalues.h"
 #include "numerics/random.h"
 
 using namespace physics;
@@ -71,13 +72,9 @@ TEST_F(Integrator, ConservesEnergyWithoutViscosity) {
 
 TEST_F(Integrator, ViscosityIsExactForFreeParticles) {
   // Without links velocities decay as exp(-nu t) for any time step, and the ledger has the loss.
-  std::string script = patch;
-  const std::string links = "create_bonds    many all all 1 1.99 2.01";
-  script.erase(script.find(links), links.size());
-  const std::string energy = "compute         energy all pe", column = "v_d";
-  script.replace(script.find(energy), energy.size(),
-                 energy + "\ncompute events all lsm/events ledger yes");
-  script.replace(script.find(column + "\n"), column.size(), column + " f_move");
+  std::string script = replaced(patch, "create_bonds    many all all 1 1.99 2.01", "");
+  script = replaced(script, "all pe", "all pe\ncompute events all lsm/events ledger yes");
+  script = replaced(script, "v_d\n", "v_d f_move\n");
   const Result r = ran(script, {{"dt", "0.1"}, {"viscosity", "0.3"}});
   const double begin = r.thermo.front().at("KinEng");
   EXPECT_NEAR(r.last("KinEng"), begin * std::exp(-2 * 0.3 * 12.8), 1e-12 * begin);
@@ -183,20 +180,6 @@ std::string network_scene(int dim, const std::string &begin, const std::string &
          "timestep 1e-9\nfix move all lsm/nve\nrun 0\nprint \"omega = $(f_move[1]:%.17g)\"\n";
 }
 
-/// Whether a value is above all eigenvalues: value - matrix has a Cholesky factor.
-bool above_all(std::vector<std::vector<double>> a, double value) {
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    for (double &x : a[n]) x = -x;
-    a[n][n] += value;
-  }
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    if (!(a[n][n] > 0.0)) return false;
-    for (std::size_t m = n + 1; m < a.size(); ++m)
-      for (std::size_t k = a.size(); k-- > m;) a[m][k] -= a[n][m] / a[n][n] * a[n][k];
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_F(TimeStep, BoundIsThatOfParticlesAlone) {
@@ -211,16 +194,14 @@ TEST_F(TimeStep, BoundIsThatOfParticlesAlone) {
           return 1.0 / network.mass[i] + 1.0 / std::sqrt(network.mass[i] * network.mass[j]);
         },
         false);
-    for (const int ranks : {1, 2})
-      for (const char *newton : {"on", "off"}) {
-        const Result r =
-            ran(network_scene(dim, "read_data network.data"), {{"newton", newton}}, ranks);
-        const double bound = std::pow(r.value("omega"), 2);
-        EXPECT_TRUE(above_all(network.matrix(), bound)) << dim << "-D";
-        EXPECT_TRUE(above_all(by_mass, bound * (1.0 + 1e-9))) << dim << "-D";
-        EXPECT_FALSE(above_all(by_mass, bound * (1.0 - 1e-9))) << dim << "-D";
-        EXPECT_FALSE(above_all(equal, bound)) << dim << "-D";
-      }
+    each_split([&](const Variables &newton, int ranks) {
+      const Result r = ran(network_scene(dim, "read_data network.data"), newton, ranks);
+      const double bound = std::pow(r.value("omega"), 2);
+      EXPECT_TRUE(unit::above_all(network.matrix(), bound)) << dim << "-D";
+      EXPECT_TRUE(unit::above_all(by_mass, bound * (1.0 + 1e-9))) << dim << "-D";
+      EXPECT_FALSE(unit::above_all(by_mass, bound * (1.0 - 1e-9))) << dim << "-D";
+      EXPECT_FALSE(unit::above_all(equal, bound)) << dim << "-D";
+    });
   }
 }
 

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The friction laws of pair lsm/friction in a spring-slider: a disc that is pressed on a flat
-// surface and pulled by a spring whose end moves. Periods, critical stiffnesses and motion are
-// compared with closed forms, or with GSL where there is none; then restart, ranks, ledger, hybrid
-// and refusals are tested for every law. This program links GSL; lmp does not.
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
-
+// surface and pulled by a spring whose end moves. Periods and rates of growth are those of closed
+// forms; the laws themselves are tested by tests/unit. Then restart, ranks, ledger, hybrid and
+// refusals are tested for every law.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -96,36 +91,6 @@ std::vector<double> starts(const Motion &m, double speed) {
   return at;
 }
 
-double mean_period(const std::vector<double> &at) {
-  return at.size() < 2 ? NAN : (at.back() - at.front()) / static_cast<double>(at.size() - 1);
-}
-
-/// Integrates with GSL's adaptive rk8pd; unlike GSL's, the right-hand side may be a closure.
-Motion integrate(std::vector<double> y, double end, double every,
-                 const std::function<void(double, const double *, double *)> &derive) {
-  using Derive = std::function<void(double, const double *, double *)>;
-  gsl_odeiv2_system system{[](double t, const double *state, double *dy, void *self) {
-                             (*static_cast<const Derive *>(self))(t, state, dy);
-                             return static_cast<int>(GSL_SUCCESS);
-                           },
-                           nullptr, y.size(), const_cast<Derive *>(&derive)};
-  const std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver *)> driver(
-      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-12, 1e-9),
-      gsl_odeiv2_driver_free);
-  Motion m;
-  double t = 0.0;
-  for (int n = 0; n <= static_cast<int>(std::lround(end / every)); ++n) {
-    if (n > 0 && gsl_odeiv2_driver_apply(driver.get(), &t, n * every, y.data()) != GSL_SUCCESS) {
-      ADD_FAILURE() << "the reference stopped at t = " << t;
-      break;
-    }
-    m.t.push_back(t);
-    m.u.push_back(y[0]);
-    m.v.push_back(y[1]);
-  }
-  return m;
-}
-
 }  // namespace
 
 class Laws : public Lmp {
@@ -183,53 +148,10 @@ TEST_F(Laws, StickSlipPeriodOfTwoStrengths) {
     // before it slips again.
     const double creep = s.speed * s.stiffness / (s.stiffness + s.kt);
     const double theory = (slip_distance(s, 0.8, 0.6, creep) + 0.2 / s.kt) / s.speed;
-    const double period = mean_period(starts(run_slider(s), 0.1));
+    const std::vector<double> at = starts(run_slider(s), 0.1);
+    ASSERT_GT(at.size(), 2u);
+    const double period = (at.back() - at.front()) / static_cast<double>(at.size() - 1);
     EXPECT_NEAR(period, theory, 0.001 * theory) << law;
-  }
-}
-
-// ---- slip weakening ----
-
-TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
-  // The weakening per slip, (mu_static - mu) fn / dc = 1, acts through the contact's own spring.
-  for (double stiffness : {0.5, 0.9, 1.1, 2.0}) {
-    Slider s;
-    s.law = "slip-weakening";
-    s.coefficients = "mu 0.6 mu_static 0.8 dc 0.2";
-    s.stiffness = stiffness;
-    s.speed = 4e-3;
-    s.every = 0.5;
-    const double weakening = 1.0 / (1.0 - 1.0 / s.kt);
-    const double creep = s.speed * stiffness / (stiffness + s.kt);
-    s.begin = creep;  // so that the contact is loaded without oscillation
-    const double breaks = 0.8 * (1.0 / stiffness + 1.0 / s.kt) / s.speed;
-    s.time = std::ceil(breaks) + 60.0;
-    const Motion m = run_slider(s);
-
-    // After failure, y'' = K V t - (K - W) y.
-    const double rest = stiffness - weakening, rate = std::sqrt(std::fabs(rest));
-    const double drift = s.speed * stiffness / rest;
-    double largest = 0.0, worst = 0.0, fastest = 0.0;
-    int times = 0;
-    for (std::size_t n = 0; n < m.t.size(); ++n) {
-      const double t = m.t[n] - breaks;
-      if (t < 0.0) continue;
-      const double y = drift * t + (creep - drift) *
-                                       (rest > 0.0 ? std::sin(rate * t) : std::sinh(rate * t)) /
-                                       rate;
-      if (y > 0.15) break;
-      const double moved = m.u[n] - creep * breaks;
-      worst = std::max(worst, std::fabs(moved - y));
-      largest = std::max(largest, y);
-      fastest = std::max(fastest, m.v[n] / s.speed);
-      ++times;
-    }
-    ASSERT_GT(times, 5);
-    EXPECT_LT(worst, 0.01 * largest);
-    if (rest > 0.0)
-      EXPECT_LT(fastest, 2.1 * stiffness / rest);
-    else
-      EXPECT_GT(fastest, 15.0);
   }
 }
 
@@ -268,70 +190,6 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
     const double rate = std::log(late / early) / (s.time - (2 * turn - 1) * s.every);
     EXPECT_NEAR(rate, 0.5 * (W - viscosity), 0.004);
   }
-}
-
-// ---- rate and state ----
-
-namespace {
-
-constexpr double kA = 0.01, kB = 0.015, kDc = 0.005, kMu = 0.6;
-
-/// Integrates disc, contact spring, slip velocity and ln(v0 theta / dc), with V = v0.
-Motion rate_state_reference(const Slider &s, bool ageing) {
-  const double V = s.speed;
-  return integrate({0.0, s.begin, kMu / s.kt, 0.0}, s.time, s.every,
-                   [&s, V, ageing](double t, const double *y, double *dy) {
-                     const double E = (kMu + kB * y[3]) / kA, q = s.kt * y[2] / kA;
-                     const double v = V * (std::exp(q - E) - std::exp(-q - E));
-                     const double omega = std::fabs(v) / V * std::exp(y[3]);  // v theta / dc
-                     dy[0] = y[1];
-                     dy[1] = s.pull + s.stiffness * (V * t - y[0]) - s.kt * y[2];
-                     dy[2] = y[1] - v;
-                     dy[3] = ageing ? V / kDc * (std::exp(-y[3]) - std::fabs(v) / V)
-                                    : (omega > 0.0 ? -std::fabs(v) / kDc * std::log(omega) : 0.0);
-                   });
-}
-
-Slider rate_state_slider(const char *evolution, double of_critical, double speed) {
-  Slider s;
-  s.law = std::string("rate-state-") + evolution;
-  s.coefficients = "mu 0.6 a 0.01 b 0.015 dc 0.005 v0 " + text(speed);
-  // The critical stiffness of the springs of slider and contact in series is (b - a) fn / dc = 1.
-  s.stiffness = of_critical / (1.0 - of_critical / s.kt);
-  s.speed = s.begin = speed;
-  s.before = 0.06 / speed;  // to the steady state
-  s.dt = 0.01;
-  return s;
-}
-
-}  // namespace
-
-TEST_F(Laws, RateStateIsStableAboveTheCriticalStiffnessOnly) {
-  for (const char *evolution : {"ageing", "slip"})
-    for (double of_critical : {0.8, 1.2}) {
-      Slider s = rate_state_slider(evolution, of_critical, 1e-3);
-      s.pull = kMu + 1e-4;
-      s.time = 200.0;
-      s.every = 0.5;
-      const Motion m = run_slider(s),
-                   reference = rate_state_reference(s, s.law == "rate-state-ageing");
-      ASSERT_EQ(m.t.size(), reference.t.size());
-      // Compares the largest velocity above the mean in the first and in the last cycle.
-      const double K = s.stiffness * s.kt / (s.stiffness + s.kt);
-      const double turn = 2.0 * M_PI / (1e-3 * std::sqrt(K / (kA * kDc)));
-      double early = 0.0, late = 0.0, worst = 0.0, largest = 0.0;
-      for (std::size_t n = 0; n < m.t.size(); ++n) {
-        if (m.t[n] < turn) early = std::max(early, m.v[n] / s.speed - 1.0);
-        if (m.t[n] > s.time - turn) late = std::max(late, m.v[n] / s.speed - 1.0);
-        worst = std::max(worst, std::fabs(m.u[n] - reference.u[n]));
-        largest = std::max(largest, std::fabs(reference.u[n] - s.speed * reference.t[n]));
-      }
-      const double rate = std::log(late / early) / (s.time - turn);
-      const double theory = 0.5 * s.speed / kDc * ((kB - kA) / kA - K * kDc / kA);
-      EXPECT_GT(early, 0.001);
-      EXPECT_NEAR(rate, theory, 0.25 * std::fabs(theory));
-      EXPECT_LT(worst, 0.03 * largest);
-    }
 }
 
 // ---- every law on a fault ----
@@ -407,8 +265,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
     EXPECT_LT(thermo_difference(whole, hybrid, law_columns), 1e-9) << name;
 
     // A restart file contains the law, but with hybrid it does not contain the coefficients.
-    Result tail = whole;
-    tail.thermo.erase(tail.thermo.begin(), tail.thermo.end() - 2);
+    const Result tail = whole.tail(2);
     const std::string again = "pair_coeff * * lsm/free off\npair_coeff 3 4 lsm/friction 1.0 1.0 " +
                               std::string(law.coefficients) + "\n";
     std::vector<std::pair<std::string, std::string>> files = {{name + ".1500", ""},

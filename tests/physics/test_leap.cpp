@@ -168,9 +168,8 @@ TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
 // such an avalanche depends on the last digit. Because of the high viscosity the load decides.
 TEST_F(Leap, TheSameLinksBreak) {
   std::string scene = slow("LEAP", "bonds f_plates[8]");
-  const std::string links = "bond_coeff        1 1.0\n", pairs = "pair_coeff        3 4";
-  scene.replace(scene.find(links), links.size(), "bond_coeff 1 1.0 1.012\n");
-  scene.replace(scene.find(pairs), pairs.size(), "pair_coeff * *");
+  scene = replaced(scene, "bond_coeff        1 1.0", "bond_coeff 1 1.0 1.012");
+  scene = replaced(scene, "pair_coeff        3 4", "pair_coeff * *");
   scene += R"(
 variable          moved equal f_plates[8]
 fix               enough all halt 1 v_moved > 0.2 error continue message no
@@ -183,13 +182,11 @@ run               0
   const auto left = [&](const std::string &name, const std::string &leap, double &before) {
     // Waves from links that break at the start decay first; then both runs start from the same
     // state.
-    std::string all_of_it = scene;
-    all_of_it.replace(all_of_it.find("LEAP"), 4, "run 6000\n" + leap);
-    const Result r = ran(all_of_it, {{"prefix", name},
-                                     {"dt", "0.05"},
-                                     {"mus", "100"},
-                                     {"velocity", "0.00005"},
-                                     {"viscosity", "0.2"}});
+    const Result r = ran(replaced(scene, "LEAP", "run 6000\n" + leap), {{"prefix", name},
+                                                                        {"dt", "0.05"},
+                                                                        {"mus", "100"},
+                                                                        {"velocity", "0.00005"},
+                                                                        {"viscosity", "0.2"}});
     EXPECT_NEAR(r.last("f_plates[8]"), 0.2, 1e-4);
     for (const auto &row : r.thermo)
       if (row.count("Bonds") > 0 && row.at("Step") == 6000.0) before = row.at("Bonds");
@@ -229,28 +226,21 @@ TEST_F(Leap, RestartAndRanks) {
     EXPECT_NEAR(row.at("f_plates[8]"),
                 2 * 0.0005 * (row.at("f_leap") - whole.thermo.front().at("f_leap")), 1e-12);
 
-  std::string again = head;
-  const std::size_t begin = again.find("read_data"), end = again.find('\n', begin);
-  again.replace(begin, end - begin, "read_restart half.1333");
+  const std::string again = replaced(head, "read_data", "\n", "read_restart half.1333");
   const Result second = ran(again + "run 1667\n", {{"prefix", "second"}, {"dt", "0.03"}});
-  for (const char *column :
-       {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
-    EXPECT_NEAR(second.last(column), whole.last(column), 1e-7 * std::fabs(whole.last(column)))
-        << column;
+  const std::vector<std::string> same = {"f_leap",    "f_leap[1]",   "f_leap[3]",
+                                         "f_leap[4]", "f_plates[8]", "c_events[5]"};
+  expect_near(second, whole, same, 1e-7);
 
   // The run may continue with another velocity, and no trace of the former one is left.
-  again.replace(again.find("fast 0.005"), 10, "fast 0.0005");
-  const Result slower = ran(again + "run 300\n", {{"prefix", "slower"}, {"dt", "0.03"}});
+  const Result slower = ran(replaced(again, "fast 0.005", "fast 0.0005") + "run 300\n",
+                            {{"prefix", "slower"}, {"dt", "0.03"}});
   EXPECT_EQ(slower.thermo.front().at("f_leap[1]"), 1.0);
   EXPECT_NEAR(slower.last("f_leap") - slower.thermo.front().at("f_leap"), 300 * 0.03, 1e-9);
 
-  for (int ranks : {2, 4}) {
-    const Result r = ran(head + "run 3000\n", {{"prefix", "ranks"}, {"dt", "0.03"}}, ranks);
-    for (const char *column :
-         {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
-      EXPECT_NEAR(r.last(column), whole.last(column), 1e-6 * std::fabs(whole.last(column)))
-          << column << ranks;
-  }
+  for (int ranks : {2, 4})
+    expect_near(ran(head + "run 3000\n", {{"prefix", "ranks"}, {"dt", "0.03"}}, ranks), whole, same,
+                1e-6);
 }
 
 // The plates leap only after the motion left by an event has decayed: the kinetic energy of the
@@ -299,10 +289,8 @@ TEST_F(Leap, PiecesOfARunAndBlocksOfSamplesChangeNothing) {
           variables("short"));
   EXPECT_NEAR(short_runs.last("f_leap[6]"), whole.last("f_leap[6]"), 1.0);
   EXPECT_NEAR(short_runs.last("f_leap"), whole.last("f_leap"), 0.1 * whole.last("f_leap"));
-  std::string late = scene;
-  const std::string compute = "all lsm/events ledger yes";
-  late.replace(late.find(compute), compute.size(), compute + " block 15000");
-  ran(late + "thermo 0\nrun 8000\n", variables("late"));
+  ran(replaced(scene, "ledger yes", "ledger yes block 15000") + "thermo 0\nrun 8000\n",
+      variables("late"));
   EXPECT_EQ(read_file(path("late.csv")), read_file(path("whole.csv")));
 }
 
@@ -348,12 +336,8 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string whole_series = read_file(path("samples.pe")),
                     whole = read_file(path("samples.csv")),
                     whole_ruptures = read_file(path("samples.ruptures"));
-  std::string again = recorded;
-  const auto from = again.find("read_data"), to = again.find('\n', from);
-  ASSERT_NE(from, std::string::npos);
-  again.replace(from, to - from, "read_restart samples.restart");
-  const Result second =
-      ran(again + "run 4000\n", {{"prefix", "samples"}, {"dt", "0.03"}, {"go", "yes"}});
+  ran(replaced(recorded, "read_data", "\n", "read_restart samples.restart") + "run 4000\n",
+      {{"prefix", "samples"}, {"dt", "0.03"}, {"go", "yes"}});
   EXPECT_EQ(read_file(path("samples.pe")), whole_series);
   EXPECT_EQ(read_file(path("samples.csv")), whole);
   EXPECT_EQ(read_file(path("samples.ruptures")), whole_ruptures);

@@ -13,40 +13,26 @@ using LatticeLinks = Lmp;
 
 TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
   // 21 discs have ten links of each type, which do not fill the lanes of a chunk of 16.
-  for (const char *newton : {"on", "off"})
-    for (int ranks : {1, 2}) {
-      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
-      const Result rest =
-          run_text(two_link_types(21) + "thermo 10\nrun 10\n", {{"newton", newton}}, ranks);
-      ASSERT_TRUE(succeeded(rest));
-      EXPECT_EQ(rest.last("Bonds"), 20.0);
+  each_split([](const Variables &newton, int ranks) {
+    const Result rest = ran(two_link_types(21) + "thermo 10\nrun 10\n", newton, ranks);
+    EXPECT_EQ(rest.last("Bonds"), 20.0);
 
-      // Pulled suddenly, the last link (type 2) breaks, and no other.
-      const Result pulled =
-          run_text(two_link_types(21) + "velocity last set 0.1 0 0\nthermo 10\nrun 200\n",
-                   {{"newton", newton}}, ranks);
-      ASSERT_TRUE(succeeded(pulled));
-      EXPECT_EQ(pulled.last("Bonds"), 19.0);
-      EXPECT_GT(pulled.last("c_events[14]"), 0.0);
-      // the force of 0.04 vanishes within a step of length 0.1 * 0.02
-      EXPECT_LT(std::fabs(pulled.last("c_events[13]")), 0.04 * 0.1 * 0.02);
-    }
+    // Pulled suddenly, the last link (type 2) breaks, and no other.
+    const Result pulled =
+        ran(two_link_types(21) + "velocity last set 0.1 0 0\nthermo 10\nrun 200\n", newton, ranks);
+    EXPECT_EQ(pulled.last("Bonds"), 19.0);
+    EXPECT_GT(pulled.last("c_events[14]"), 0.0);
+    // the force of 0.04 vanishes within a step of length 0.1 * 0.02
+    EXPECT_LT(std::fabs(pulled.last("c_events[13]")), 0.04 * 0.1 * 0.02);
+  });
 }
 
 TEST_F(LinkTypes, TypesThatDoNotBreakPullLikeAlone) {
   // a breaking distance that is never reached changes no digit of the motion
   const std::string pull = "velocity last set 0.01 0 0\nthermo 20\nrun 200\n";
-  const Result far = run_text(two_link_types(21) + pull, {{"ratio", "5"}});
-  std::string never = two_link_types(21);
-  const std::string ratio = "bond_coeff        2 1.0 ${ratio}";
-  never.replace(never.find(ratio), ratio.size(), "bond_coeff        2 1.0");
-  const Result none = run_text(never + pull);
-  ASSERT_TRUE(succeeded(far));
-  ASSERT_TRUE(succeeded(none));
-  ASSERT_EQ(far.thermo.size(), none.thermo.size());
-  for (std::size_t n = 0; n < far.thermo.size(); ++n)
-    for (const char *column : {"KinEng", "c_events[6]"})
-      EXPECT_EQ(far.thermo[n].at(column), none.thermo[n].at(column)) << column << " in row " << n;
+  const Result far = ran(two_link_types(21) + pull, {{"ratio", "5"}});
+  const Result none = ran(replaced(two_link_types(21), "2 1.0 ${ratio}", "2 1.0") + pull);
+  EXPECT_EQ(thermo_difference(far, none, {"KinEng", "c_events[6]"}), 0.0);
   EXPECT_GT(far.last("c_events[6]"), 0.0);
   EXPECT_EQ(far.last("Bonds"), 20.0);
 }
@@ -55,8 +41,7 @@ TEST_F(LinkTypes, TypesThatDoNotBreakPullLikeAlone) {
 
 TEST_F(BrokenLinks, RestartOfTheStepInWhichALinkBreaksCountsItOnce) {
   const std::string pulled = two_link_types(5) + "velocity last set 0.1 0 0\nthermo 1\n";
-  const Result whole = run_text(pulled + "run 60\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n");
-  ASSERT_TRUE(succeeded(whole));
+  const Result whole = ran(pulled + "run 60\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n");
   ASSERT_EQ(whole.value("count"), 1.0);
   const double lost = whole.last("c_events[14]");
   ASSERT_GT(lost, 0.0);
@@ -79,17 +64,13 @@ compute           events all lsm/events ledger yes strainlimit 10
         SCOPED_TRACE("step " + std::to_string(at) + (within ? " within" : " after") +
                      " the run, ranks " + std::to_string(ranks));
         const std::string n = std::to_string(at);
-        const Result first =
-            within ? run_text(pulled + "restart " + n + " broken.*.restart\nrun " + n + "\n", {},
-                              ranks)
-                   : run_text(pulled + "run " + n + "\nwrite_restart broken." + n + ".restart\n",
-                              {}, ranks);
-        ASSERT_TRUE(succeeded(first));
-        const Result r = run_text(
-            "atom_modify map array\ncomm_modify mode single cutoff 4.5\nread_restart broken." + n +
-                ".restart\n" + go_on,
+        ran(within ? pulled + "restart " + n + " broken.*.restart\nrun " + n + "\n"
+                   : pulled + "run " + n + "\nwrite_restart broken." + n + ".restart\n",
             {}, ranks);
-        ASSERT_TRUE(succeeded(r));
+        const Result r =
+            ran("atom_modify map array\ncomm_modify mode single cutoff 4.5\nread_restart broken." +
+                    n + ".restart\n" + go_on,
+                {}, ranks);
         EXPECT_EQ(r.last("c_events[14]"), lost);
         EXPECT_EQ(r.last("Bonds"), 3.0);
         EXPECT_EQ(r.value("count"), 1.0);
@@ -101,10 +82,8 @@ TEST_F(BrokenLinks, TooLongAtTheBeginBreaksOnce) {
   // A link that is too long at the first force evaluation is absent from lists and files after a
   // run of 0 steps. On two ranks the link lies across their border; with newton off both have it,
   // each with half of its energy.
-  for (const char *newton : {"on", "off"})
-    for (int ranks : {1, 2}) {
-      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
-      const Result r = run_text(discs({{"-1.05", "0"}, {"1.05", "0"}}) + R"(
+  each_split([](const Variables &newton, int ranks) {
+    const Result r = ran(discs({{"-1.05", "0"}, {"1.05", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
 bond_style        lsm/linked
 bond_coeff        1 1.0 1.02
@@ -121,21 +100,18 @@ variable          links equal bonds
 print             "links = ${links}"
 run               5
 )",
-                                {{"newton", newton}}, ranks);
-      ASSERT_TRUE(succeeded(r));
-      EXPECT_EQ(r.value("links"), 0.0);
-      EXPECT_EQ(r.thermo.front().at("c_events[6]"),
-                0.0);  // the energy of the link that has just broken
-      EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
-    }
+                         newton, ranks);
+    EXPECT_EQ(r.value("links"), 0.0);
+    EXPECT_EQ(r.thermo.front().at("c_events[6]"),
+              0.0);  // the energy of the link that has just broken
+    EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
+  });
 }
 
 TEST_F(BrokenLinks, AnotherLinkOfThePairKeepsItOutOfContact) {
   // Of two links between the same discs one breaks; the other pulls them together again.
-  for (const char *newton : {"on", "off"})
-    for (int ranks : {1, 2}) {
-      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
-      const Result r = run_text(discs({{"-1.05", "0"}, {"1.05", "0"}}, 2) + R"(
+  each_split([](const Variables &newton, int ranks) {
+    const Result r = ran(discs({{"-1.05", "0"}, {"1.05", "0"}}, 2) + R"(
 create_bonds      single/bond 1 1 2
 create_bonds      single/bond 2 1 2
 bond_style        lsm/linked
@@ -147,14 +123,13 @@ timestep          0.05
 fix               move all lsm/nve
 compute           events all lsm/events ledger yes
 )" + disc_columns + "thermo 45\nrun 45\n",
-                                {{"newton", newton}}, ranks);
-      ASSERT_TRUE(succeeded(r));
-      EXPECT_EQ(r.last("Bonds"), 1.0);
-      EXPECT_EQ(r.last("c_events[7]"), 0.0);
-      // Half a period of w^2 = 2 takes 44.4 steps: then it is compressed as far as it was
-      // stretched.
-      EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
-    }
+                         newton, ranks);
+    EXPECT_EQ(r.last("Bonds"), 1.0);
+    EXPECT_EQ(r.last("c_events[7]"), 0.0);
+    // Half a period of w^2 = 2 takes 44.4 steps: then it is compressed as far as it was
+    // stretched.
+    EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
+  });
 }
 
 TEST_F(BrokenLinks, PartnersOfTheFormerPartnerAreTouched) {
@@ -172,21 +147,24 @@ TEST_F(BrokenLinks, PartnersOfTheFormerPartnerAreTouched) {
             {"-1.05", "0"}, {"1.05", "0"}, {"-0.1", "1.9"}};
         if (reversed) std::swap(chain.front(), chain.back());
         const std::string loose = reversed ? "3" : "1", last = reversed ? "1" : "3";
-        const Result r = run_text(discs(chain, 2) + R"(
+        const Result r = ran(discs(chain, 2) + R"(
 neighbor          0.4 )" + list + R"(
 special_bonds     lj 0 1 1
-create_bonds      single/bond 1 2 )" + loose +
-                                      R"(
-create_bonds      single/bond 2 2 )" + last +
-                                      R"(
+create_bonds      single/bond 1 2 )" +
+                                 loose +
+                                 R"(
+create_bonds      single/bond 2 2 )" +
+                                 last +
+                                 R"(
 bond_style        lsm/linked
 bond_coeff        1 1.0 1.02
 bond_coeff        2 1.0
 pair_style        lsm/free
 pair_coeff        1 1 1.0
 group             loose id )" + loose +
-                                      R"(
-group             last id )" + last + R"(
+                                 R"(
+group             last id )" + last +
+                                 R"(
 velocity          loose set 0.02 0.1 0
 timestep          0.05
 fix               move all lsm/nve
@@ -200,8 +178,7 @@ thermo            10
 run               80
 run               10
 )",
-                                  {}, ranks);
-        ASSERT_TRUE(succeeded(r));
+                             {}, ranks);
         EXPECT_EQ(r.last("Bonds"), 1.0);
         int touching = 0;
         for (const auto &row : r.thermo) {
@@ -244,19 +221,16 @@ timestep          0.1
            "print 'broken = $(c_events[14]:%.17g)'\n";
   };
   for (const std::string dashpots : {"", "kelvin-voigt 0.05"}) {
-    const Result pattern = run_text(shaken(dashpots, ""));
-    ASSERT_TRUE(succeeded(pattern));
+    const Result pattern = ran(shaken(dashpots, ""));
     const double before = pattern.thermo.at(0).at("Bonds"), after = pattern.last("Bonds");
     EXPECT_LT(after, before - 20.0);
     EXPECT_GT(after, 0.9 * before);
     EXPECT_GT(pattern.value("broken"), 0.1);
-    const Result list = run_text(shaken(dashpots, "atom_modify sort 20 1.5"));
-    ASSERT_TRUE(succeeded(list));
+    const Result list = ran(shaken(dashpots, "atom_modify sort 20 1.5"));
     for (const char *value : {"links", "broken"})
       EXPECT_EQ(list.value(value), pattern.value(value));
     for (const char *newton : {"off", "on"}) {
-      const Result ranks = run_text(shaken(dashpots, ""), {{"newton", newton}}, 2);
-      ASSERT_TRUE(succeeded(ranks));
+      const Result ranks = ran(shaken(dashpots, ""), {{"newton", newton}}, 2);
       EXPECT_EQ(ranks.last("Bonds"), after) << newton;
       for (const char *value : {"links", "broken"})
         EXPECT_NEAR(ranks.value(value), pattern.value(value), 1e-12 * pattern.value(value));

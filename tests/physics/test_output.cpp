@@ -12,11 +12,8 @@ TEST_F(Output, RunAfterRunEqualsOneRun) {
     const std::string start = fault_read() + fault_shear("") + "thermo 200\n";
     const Result one = ran(start + "run 2000\n", {{"mus", mus}});
     const Result many = ran(start + "run 400\nrun 400\nrun 0\nrun 1200\n", {{"mus", mus}});
-    const Result end_one = {0, "", {one.thermo.back()}, {}};
-    const Result end_many = {0, "", {many.thermo.back()}, {}};
     EXPECT_EQ(one.last("Step"), many.last("Step"));
-    const double off = thermo_difference(end_one, end_many, compared);
-    EXPECT_LT(off, 1e-9);
+    EXPECT_LT(thermo_difference(one.tail(1), many.tail(1), compared), 1e-9);
     EXPECT_EQ(one.last("c_events"), many.last("c_events"));
   }
 }
@@ -64,16 +61,14 @@ TEST_F(Output, PiecesEndWithAFixHalt) {
 
 // Contacts across the borders of ranks and of the box keep their springs.
 TEST_F(Output, RestartFileBetweenRunsChangesNothing) {
-  for (int ranks : {1, 2, 4}) {
+  for (int ranks : {1, 4}) {
     const std::string start = fault_read() + fault_shear("") + "thermo 500\nrun 2000\n";
     const Result without = ran(start + "run 2000\n", {}, ranks);
     const Result with = ran(start + "write_restart between.restart\nrun 2000\n", {}, ranks);
     const Result resumed = ran(
         fault_restart("between.restart") + fault_shear("") + "thermo 500\nrun 2000\n", {}, ranks);
     EXPECT_LT(thermo_difference(without, with, compared), 1e-9) << ranks << " ranks";
-    Result second = without;
-    second.thermo.erase(second.thermo.begin(), second.thermo.end() - 5);
-    EXPECT_LT(thermo_difference(second, resumed, compared), 1e-9) << ranks << " ranks";
+    EXPECT_LT(thermo_difference(without.tail(5), resumed, compared), 1e-9) << ranks << " ranks";
   }
 }
 

@@ -252,9 +252,8 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
     const LSM::SlipHistoryInfo info =
         LSM::SlipHistoryReader(LSM::files::open_plain(path(prefix + ".slip"))).info();
     const auto records = records_of(path(prefix + ".slip"));
-    std::string steps = found;
-    steps.replace(steps.find("interval 7"), 10, "interval 1");
-    ran(sheared(steps + "quiet 1 ") + "run 6000\n", {{"prefix", prefix + "steps"}}, ranks);
+    ran(sheared(replaced(found, "interval 7", "interval 1") + "quiet 1 ") + "run 6000\n",
+        {{"prefix", prefix + "steps"}}, ranks);
     const auto each_step = records_of(path(prefix + "steps.slip"));
     const double factor = info.ruptures.modulus * info.grid.width;
     const auto slip_between = [&records](std::int64_t from, std::int64_t to, std::size_t bin) {

@@ -23,14 +23,13 @@ TEST_F(Collision, HeadOnAsInTheory) {
 }
 
 TEST_F(Collision, MomentumIsKeptOnAllRankCounts) {
-  for (int ranks : {1, 2, 4})
-    for (const char *newton : {"on", "off"}) {
-      const Result r =
-          ran_scene("two_body_collision.in", {{"offset", "0.6"}, {"newton", newton}}, ranks);
-      EXPECT_NEAR(r.value("momentum_x"), 0.1, 1e-15) << ranks << " ranks, newton " << newton;
-      EXPECT_NEAR(r.value("momentum_y"), 0.0, 1e-15);
-      EXPECT_GT(std::fabs(r.value("velocity_1") - 0.1), 0.01);  // they did collide
-    }
+  each_split([](Variables variables, int ranks) {
+    variables.emplace_back("offset", "0.6");
+    const Result r = ran_scene("two_body_collision.in", variables, ranks);
+    EXPECT_NEAR(r.value("momentum_x"), 0.1, 1e-15);
+    EXPECT_NEAR(r.value("momentum_y"), 0.0, 1e-15);
+    EXPECT_GT(std::fabs(r.value("velocity_1") - 0.1), 0.01);  // they did collide
+  });
 }
 
 TEST_F(Collision, EnergyErrorFallsWithTheTimeStep) {
@@ -69,51 +68,9 @@ TEST_F(PWave, LatticeScalesWithStiffnessMassAndRadius) {
   EXPECT_NEAR(r.value("p_wave_speed"), theory, 0.01 * theory);
 }
 
-// Position of half the height on the leading edge of the pulse, from the first layer above
-// y = middle.
-static double front(const std::vector<std::pair<double, double>> &layers, double middle) {
-  std::size_t peak = 0;
-  for (std::size_t n = 0; n < layers.size(); ++n)
-    if (layers[n].first > middle &&
-        (layers[peak].first <= middle || layers[n].second > layers[peak].second))
-      peak = n;
-  const double half = 0.5 * layers[peak].second;
-  for (std::size_t n = peak + 1; n < layers.size(); ++n)
-    if (layers[n].second < half) {
-      const auto &a = layers[n - 1], &b = layers[n];
-      return a.first + (b.first - a.first) * (a.second - half) / (a.second - b.second);
-    }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 TEST_F(PWave, RandomPacking) {
-  const Result r = ran_scene("p_wave_packing.in", {{"profile", "yes"}});
-
-  // Each block begins with a line "step layers count"; lines "layer y count vy" follow.
-  std::ifstream in(path("p_wave_profile.txt"));
-  std::vector<std::pair<double, double>> fronts, layers;
-  double time = 0.0;
-  auto finish = [&] {
-    if (time > 4.0 && !layers.empty()) fronts.emplace_back(time, front(layers, 30.0));
-    layers.clear();
-  };
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream split(line);
-    std::vector<double> v{std::istream_iterator<double>(split), {}};
-    if (v.size() == 3) {
-      finish();
-      time = v[0] * 0.03;
-    } else if (v.size() == 4)
-      layers.emplace_back(v[1], v[3]);
-  }
-  finish();
-  ASSERT_GE(fronts.size(), 4u);
-  const double speed =
-      (fronts.back().second - fronts.front().second) / (fronts.back().first - fronts.front().first);
-  EXPECT_GT(speed, 2.0);
-  EXPECT_LT(speed, 2.2);
-  EXPECT_GT(r.value("p_wave_speed"), 2.0);
-  EXPECT_LT(r.value("p_wave_speed"), 2.2);
+  const Result r = ran_scene("p_wave_packing.in");
+  EXPECT_NEAR(r.value("p_wave_speed"), 2.1, 0.1);
 }
 
 TEST_F(Coulomb, SticksBelowTheStaticStrength) {
@@ -126,42 +83,34 @@ TEST_F(Coulomb, SticksBelowTheStaticStrength) {
   }
 }
 
+// Once it slides, friction is dynamic.
 TEST_F(Coulomb, SlidesAboveItWithTheRightAcceleration) {
-  for (const char *pull : {"1.02", "1.3"}) {
-    const Result r = ran_scene("coulomb_block.in", {{"pull", pull}});
-    const double theory = (std::stod(pull) - 1.0) * 0.006;
+  for (const auto &[mus, pull] : {std::pair(0.6, 1.02), {0.6, 1.3}, {0.8, 1.02}}) {
+    const Result r = ran_scene("coulomb_block.in", {{"mus", text(mus)}, {"pull", text(pull)}});
+    const double theory = pull * mus * 0.01 - 0.006;
     EXPECT_NEAR(r.value("acceleration"), theory, 0.005 * theory);
     EXPECT_GT(r.value("friction_work"), 0.0);
   }
 }
 
-TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
-  // Once it slides, friction is dynamic.
-  const Result slides = ran_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "1.02"}});
-  EXPECT_NEAR(slides.value("acceleration"), 1.02 * 0.008 - 0.006, 0.002 * 0.00216);
-}
-
 TEST_F(Coulomb, SlidingGoesOnFromRunToRun) {
   // A sliding contact does not stick again because a run ends and the next one begins.
   const Result one = ran_scene("coulomb_block.in", {{"mus", "0.8"}, {"hold", "40"}});
-  std::string script = read_file(std::string(LSM_INPUTS) + "/coulomb_block.in");
-  const std::string whole = "run             $(ceil(v_hold/v_dt):%.0f)";
-  const auto at = script.find(whole);
-  ASSERT_NE(at, std::string::npos);
   std::string parts;
   for (int n = 0; n < 8; ++n) parts += "run $(ceil(v_hold/v_dt)/8:%.0f)\n";
-  script.replace(at, whole.size(), parts);
-  const Result many = ran(script, {{"mus", "0.8"}, {"hold", "40"}});
+  const Result many = ran(replaced(read_file(std::string(LSM_INPUTS) + "/coulomb_block.in"),
+                                   "run             $(ceil(v_hold/v_dt):%.0f)", parts),
+                          {{"mus", "0.8"}, {"hold", "40"}});
   EXPECT_NEAR(many.value("slip"), one.value("slip"), 1e-9 * one.value("slip"));
 }
 
 TEST_F(Coulomb, RanksAndNewton) {
   const Result one = ran_scene("coulomb_block.in");
-  for (const char *newton : {"on", "off"}) {
-    const Result r = ran_scene("coulomb_block.in", {{"newton", newton}}, 2);
+  each_split([&](const Variables &newton, int ranks) {
+    const Result r = ran_scene("coulomb_block.in", newton, ranks);
     EXPECT_NEAR(r.value("slip"), one.value("slip"), 1e-9);
     EXPECT_NEAR(r.value("friction_work"), one.value("friction_work"), 1e-9);
-  }
+  });
 }
 
 TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
@@ -198,23 +147,20 @@ print             "height = $(v_y:%.17g)"
   };
   const Result by_number = run("nsq", "on", 1);
   EXPECT_GT(by_number.value("height"), 5.0);  // over several borders of bins
-  for (const char *newton : {"on", "off"})
-    for (int ranks : {1, 2}) {
-      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
-      const Result r = run("bin", newton, ranks);
-      EXPECT_NEAR(r.value("height"), by_number.value("height"), 1e-11);
-      ASSERT_EQ(r.thermo.size(), by_number.thermo.size());
-      int turns = 0;
-      for (std::size_t n = 0; n < r.thermo.size(); ++n) {
-        EXPECT_NEAR(r.thermo[n].at("KinEng"), by_number.thermo[n].at("KinEng"), 1e-12) << n;
-        EXPECT_NEAR(r.thermo[n].at("PotEng"), by_number.thermo[n].at("PotEng"), 1e-12) << n;
-        EXPECT_EQ(by_number.thermo[n].at("c_first"), by_number.thermo[0].at("c_first"));
-        if (n > 0 && r.thermo[n].at("c_first") != r.thermo[n - 1].at("c_first")) ++turns;
-      }
-      if (newton == std::string("on") && ranks == 1) {
-        EXPECT_GE(turns, 4);
-      }
+  for (const auto &[newton, ranks] : {std::pair("on", 1), {"on", 2}, {"off", 2}}) {
+    SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+    const Result r = run("bin", newton, ranks);
+    EXPECT_NEAR(r.value("height"), by_number.value("height"), 1e-11);
+    EXPECT_LT(thermo_difference(r, by_number, {"KinEng", "PotEng"}), 1e-11);
+    int turns = 0;
+    for (std::size_t n = 0; n < r.thermo.size(); ++n) {
+      EXPECT_EQ(by_number.thermo[n].at("c_first"), by_number.thermo[0].at("c_first"));
+      if (n > 0 && r.thermo[n].at("c_first") != r.thermo[n - 1].at("c_first")) ++turns;
     }
+    if (ranks == 1) {
+      EXPECT_GE(turns, 4);
+    }
+  }
 }
 
 TEST_F(Coulomb, SpringOfAStickingContactIsSecondOrder) {
@@ -252,19 +198,9 @@ timestep          )in" + text(dt) +
   EXPECT_NEAR(std::log2(off[0] / off[2]) / 2.0, 2.0, 0.1);
 }
 
-TEST_F(Tension, BreaksAndTurnsIntoContacts) {
-  const Result r = ran_scene("tension_break.in");
-  EXPECT_LT(r.value("links_after_pull"), r.value("links_before"));
-  double strongest = 0.0;
-  for (const auto &row : r.thermo) strongest = std::max(strongest, row.at("v_tension"));
-  EXPECT_GT(strongest, 0.05);
-  EXPECT_LT(std::fabs(r.value("tension_after_pull")), 1e-6);  // two pieces
-  EXPECT_LT(r.value("tension_after_push"), -0.05);            // contacts bear pressure
-}
-
-TEST_F(Tension, ContactsBearNoTension) {
-  // When pulled a second time, the pieces separate without resistance.
-  const std::string script = read_file(std::string(LSM_INPUTS) + "/tension_break.in") + R"lmp(
+// When pulled a second time, the pieces separate without resistance.
+TEST_F(Tension, BreaksAndTurnsIntoContactsThatBearNoTension) {
+  const Result r = ran(read_file(std::string(LSM_INPUTS) + "/tension_break.in") + R"lmp(
 velocity        left set $(-v_speed) 0 0
 velocity        right set ${speed} 0 0
 run             $(ceil(v_back/v_dt):%.0f)
@@ -273,21 +209,25 @@ velocity        right set 0 0 0
 run             $(ceil(v_rest/v_dt):%.0f)
 print           "tension_at_end = $(v_tension:%.10g)"
 print           "links_at_end = $(v_links:%.0f)"
-)lmp";
-  const Result r = ran(script);
+)lmp");
+  EXPECT_LT(r.value("links_after_pull"), r.value("links_before"));
+  double strongest = 0.0;
+  for (const auto &row : r.thermo) strongest = std::max(strongest, row.at("v_tension"));
+  EXPECT_GT(strongest, 0.05);
+  EXPECT_LT(std::fabs(r.value("tension_after_pull")), 1e-6);  // two pieces
+  EXPECT_LT(r.value("tension_after_push"), -0.05);            // contacts bear pressure
   EXPECT_EQ(r.value("links_at_end"), r.value("links_after_push"));
   EXPECT_LT(std::fabs(r.value("tension_at_end")), 1e-6);
 }
 
 TEST_F(Tension, SameOnAllRankCountsAndNewton) {
   const Result one = ran_scene("tension_break.in");
-  for (int ranks : {1, 2, 4})
-    for (const char *newton : {"on", "off"}) {
-      const Result r = ran_scene("tension_break.in", {{"newton", newton}}, ranks);
-      EXPECT_EQ(r.value("links_after_pull"), one.value("links_after_pull"));
-      EXPECT_EQ(r.value("links_after_push"), one.value("links_after_push"));
-      EXPECT_LT(thermo_difference(one, r, {"Bonds", "v_tension", "KinEng"}), 1e-7);
-    }
+  each_split([&](const Variables &newton, int ranks) {
+    const Result r = ran_scene("tension_break.in", newton, ranks);
+    EXPECT_EQ(r.value("links_after_pull"), one.value("links_after_pull"));
+    EXPECT_EQ(r.value("links_after_push"), one.value("links_after_push"));
+    EXPECT_LT(thermo_difference(one, r, {"Bonds", "v_tension", "KinEng"}), 1e-7);
+  });
 }
 
 // ---- plates on a lattice of discs of radius and mass 1 ------------------------------------------

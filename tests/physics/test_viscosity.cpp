@@ -78,11 +78,8 @@ TEST_F(Viscosity, BesideThatOfTheParticles) {
   const double w2 = 2.0 * stiffness, half = 0.5 * (w2 * time + nu);
   const double turn = std::sqrt(w2 - half * half);
   for (const double dt : {0.04, 0.02}) {
-    std::string script = linked();
-    const std::string fix = "all lsm/nve";
-    script.replace(script.find(fix), fix.size(), fix + " viscosity 0.3");
-    const Result r =
-        ran(script, {{"dt", text(dt)}, {"end", "3.2"}, {"retardation", "kelvin-voigt 0.2"}});
+    const Result r = ran(replaced(linked(), "all lsm/nve", "all lsm/nve viscosity 0.3"),
+                         {{"dt", text(dt)}, {"end", "3.2"}, {"retardation", "kelvin-voigt 0.2"}});
     off.push_back(r.last("v_s") - 0.02 * std::exp(-half * t) * std::sin(turn * t) / turn);
   }
   EXPECT_LT(std::fabs(off[1]), 1e-3 * 0.02);
@@ -104,10 +101,9 @@ TEST_F(Viscosity, LimitOfTheTimeStepIsSharp) {
         continue;
       }
       EXPECT_TRUE(failed_with(limited, {"above the stability limit", "kelvin-voigt"}));
-      std::string script = linked("1e-9");
-      const std::string fix = "all lsm/nve";
-      script.replace(script.find(fix), fix.size(), fix + " dtcheck off");
-      const Result grown = run_text(script + "thermo 1\n", variables);
+      const Result grown = run_text(
+          replaced(linked("1e-9"), "all lsm/nve", "all lsm/nve dtcheck off") + "thermo 1\n",
+          variables);
       double most = 0.0;
       for (const auto &row : grown.thermo) most = std::max(most, std::fabs(row.at("v_s")));
       EXPECT_TRUE(grown.exit_code != 0 || most > 1e-6) << most;
@@ -200,63 +196,36 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
 
 namespace {
 
-/// A patch of a fault that breaks; links and contacts have dashpots.
-std::string fault(const std::string &begin, const std::string &newton = "off") {
-  return "units lj\ndimension 2\nboundary f f p\nnewton " + newton +
-         "\natom_style hybrid bond sphere\natom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
-         begin +
-         "\ncomm_modify mode single cutoff 1.8\nneighbor 0.1 bin\n"
-         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
-         "bond_style lsm/linked\nbond_coeff 1 1.0 kelvin-voigt 0.1\n"
-         "bond_coeff 2 0.5 1.5 kelvin-voigt 0.2\n"
-         "pair_style lsm/friction slip-weakening\npair_coeff * * off\n"
-         "pair_coeff 3 4 1.0 10.0 mu 0.5 mu_static 0.7 dc 3e-4 kelvin-voigt 0.05\n"
-         "variable shear atom 6e-4+1.2e-4*(abs(x)<4)\n"
-         "fix load all lsm/traction lower upper 1e-3 v_shear\n"
-         "fix caps caps lsm/absorb y 1.2 0.7 1.0\nfix move all lsm/nve\ntimestep 0.1\n"
-         "compute events all lsm/events ledger yes progress no\n"
-         "thermo_style custom step ke c_events[6] c_events[11] c_events[12] c_events[13] "
-         "c_events[15] c_events[16]\n"
-         "thermo_modify norm no format float %.17g\nthermo 100\n";
+/// A fault whose links and contacts have dashpots.
+std::string fault(const std::string &begin = lattice_of_41) {
+  return lattice_fault(begin, "f f p", " kelvin-voigt 0.1", " 1.5 kelvin-voigt 0.2",
+                       " kelvin-voigt 0.05");
 }
-const std::string created = "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
 const std::vector<std::string> energies = {"KinEng",       "c_events[6]",  "c_events[11]",
                                            "c_events[12]", "c_events[15]", "c_events[16]"};
 
 }  // namespace
 
 TEST_F(Viscosity, RanksAndNewtonAgree) {
-  const Result one = ran(fault(created) + "run 400\n");
+  const Result one = ran(fault() + "run 400\n");
   EXPECT_GT(one.last("c_events[11]"), 1e-6);
   EXPECT_GT(one.last("c_events[12]"), 1e-2 * one.last("c_events[11]"));
   EXPECT_LT(std::fabs(one.last("c_events[13]")), 1e-3 * one.last("c_events[11]"));
-  for (const char *newton : {"off", "on"})
-    for (const int ranks : {1, 2, 4}) {
-      const Result other = ran(fault(created, newton) + "run 400\n", {}, ranks);
-      EXPECT_LT(thermo_difference(one, other, energies), 1e-10)
-          << "newton " << newton << ", " << ranks << " ranks";
-    }
+  each_split([&](const Variables &newton, int ranks) {
+    EXPECT_LT(thermo_difference(one, ran(fault() + "run 400\n", newton, ranks), energies), 1e-10);
+  });
 }
 
 TEST_F(Viscosity, InPiecesAndFromARestartFile) {
-  const std::string restarted = "read_restart half.restart";
   for (const int ranks : {1, 2}) {
-    const Result whole = ran(fault(created) + "run 400\n", {}, ranks);
-    const Result pieces = ran(fault(created) + "run 133\nrun 67\nrun 200\n", {}, ranks);
-    const Result half = ran(fault(created) + "run 200\nwrite_restart half.restart\n", {}, ranks);
-    // Once with the coefficients of the file, once with those of the script.
-    std::string of_file = fault(restarted);
-    const auto from = of_file.find("bond_style"), to = of_file.find("variable shear");
-    of_file.erase(from, to - from);
-    for (const std::string &script : {fault(restarted), of_file}) {
-      const Result rest = ran(script + "run 200\n", {}, ranks);
-      for (const std::string &column : energies) {
-        EXPECT_NEAR(rest.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
-            << column << ", " << ranks << " ranks, from the file";
-        EXPECT_NEAR(pieces.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
-            << column << ", " << ranks << " ranks, in pieces";
-      }
-    }
+    SCOPED_TRACE(std::to_string(ranks) + " ranks");
+    const Result whole = ran(fault() + "run 400\n", {}, ranks);
+    expect_near(ran(fault() + "run 133\nrun 67\nrun 200\n", {}, ranks), whole, energies, 1e-11);
+    ran(fault() + "run 200\nwrite_restart half.restart\n", {}, ranks);
+    // Once with the coefficients of the script, once with those of the file.
+    const std::string again = fault("read_restart half.restart");
+    for (const std::string &script : {again, replaced(again, "bond_style", "variable shear", "")})
+      expect_near(ran(script + "run 200\n", {}, ranks), whole, energies, 1e-11);
   }
 }
 
@@ -273,15 +242,12 @@ TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
 
 TEST_F(Viscosity, VelocitiesSetBeforeARestartFileCount) {
   // As in a run without a restart file: the former velocities do not matter.
-  const std::string set =
-      fault(created) + "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n";
+  const std::string set = fault() + "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n";
   const Result whole = ran(set + "run 5\n");
   const Result written = ran(set + "write_restart set.restart\nrun 5\n");
   const Result rest = ran(fault("read_restart set.restart") + "run 5\n");
   EXPECT_EQ(thermo_difference(whole, written, energies), 0.0);
-  for (const std::string &column : energies)
-    EXPECT_NEAR(rest.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
-        << column;
+  expect_near(rest, whole, energies, 1e-11);
 }
 
 TEST_F(Viscosity, OtherCommandsKnowIt) {
@@ -321,26 +287,19 @@ TEST_F(Viscosity, OtherCommandsKnowIt) {
 TEST_F(Viscosity, UnderHybridStyles) {
   const Variables variables = {{"dt", "0.02"}, {"end", "2"}, {"retardation", "kelvin-voigt 0.5"}};
   const Result plain = ran(linked(), variables);
-  std::string script = linked();
-  const auto replace = [&script](const std::string &from, const std::string &to) {
-    script.replace(script.find(from), from.size(), to);
-  };
-  replace("bond_style lsm/linked", "bond_style hybrid lsm/linked");
-  replace("bond_coeff 1 1.5", "bond_coeff 1 lsm/linked 1.5");
-  replace("pair_style lsm/free\npair_coeff * * 1.0",
-          "pair_style hybrid/overlay lsm/free zero 1.0\npair_coeff * * zero\n"
-          "pair_coeff * * lsm/free 1.0");
+  std::string script = replaced(linked(), "bond_style lsm/linked", "bond_style hybrid lsm/linked");
+  script = replaced(script, "bond_coeff 1 1.5", "bond_coeff 1 lsm/linked 1.5");
+  script = replaced(script, "pair_style lsm/free\npair_coeff * * 1.0",
+                    "pair_style hybrid/overlay lsm/free zero 1.0\npair_coeff * * zero\n"
+                    "pair_coeff * * lsm/free 1.0");
   const Result hybrid = ran(script, variables);
   EXPECT_LT(thermo_difference(plain, hybrid, {"v_s", "KinEng", "c_events[12]"}), 1e-14);
 }
 
 TEST_F(Viscosity, WrongInputIsNamed) {
-  const auto with = [&](const std::string &words, const std::string &more = "") {
+  const auto with = [&](const std::string &words, const std::string &fix = "") {
     std::string script = linked();
-    if (!more.empty()) {
-      const std::string fix = "fix               move all lsm/nve";
-      script.replace(script.find(fix), fix.size(), more);
-    }
+    if (!fix.empty()) script = replaced(script, "fix               move all lsm/nve", fix);
     return run_text(script, {{"dt", "0.02"}, {"end", "0.2"}, {"retardation", words}});
   };
   EXPECT_TRUE(failed_with(with("kelvin-voigt -1"), {"kelvin-voigt is -1", ">= 0"}));

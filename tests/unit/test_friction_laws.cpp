@@ -285,20 +285,4 @@ TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
         }
 }
 
-TYPED_TEST(RateStateLaw, IsOfFirstOrderInTheTimeStepAtLeast) {
-  // A soft contact is pulled, stopped and pulled back.
-  auto work = [](int steps) {
-    Driven<TypeParam> contact({2.0, 0.6, 0.01, 0.008, 0.02, 1e-3, 0.0});
-    for (int n = 0; n < steps; ++n) {
-      const double t = 100.0 * (n + 1) / steps, before = 100.0 * n / steps;
-      contact.move(std::sin(0.1 * t) - std::sin(0.1 * before), t - before);
-    }
-    return contact.lost;
-  };
-  const double exact = work(256000), coarse = std::fabs(work(2000) - exact),
-               fine = std::fabs(work(8000) - exact);
-  EXPECT_GT(exact, 2.0);
-  EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 0.8);
-}
-
 }  // namespace

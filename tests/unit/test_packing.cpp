@@ -2,7 +2,6 @@
 // The geometry is checked by plain loops over pairs, not with the search of the packing itself.
 
 #include "fault/packing.h"
-#include "numerics/random.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +10,15 @@
 #include <complex>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "eigenvalues.h"
+#include "unit_files.h"
 
 namespace {
 
@@ -31,6 +34,30 @@ double gap(const LSM::Disc &a, const LSM::Disc &b, double length) {
   double dx = std::fabs(a.x - b.x);
   dx = std::min(dx, length - dx);
   return std::hypot(dx, a.y - b.y) - a.r - b.r;
+}
+
+/// Discs lie inside their blocks and do not overlap, and all pairs of a block that are close are
+/// linked.
+void expect_valid(const LSM::Packing &p, const LSM::PackingSettings &s) {
+  std::vector<std::pair<int, int>> links;
+  for (int i = 0; i < static_cast<int>(p.discs.size()); ++i) {
+    const LSM::Disc &a = p.disc(i);
+    EXPECT_GE(a.x, 0.0);
+    EXPECT_LT(a.x, s.length);
+    EXPECT_GE(a.r, s.rmin);
+    EXPECT_LE(a.r, s.rmax);
+    ASSERT_TRUE(a.block == 0 || a.block == 1);
+    const double low = a.block == 0 ? 0.0 : 0.5 * s.width;
+    EXPECT_GE(a.y - a.r, low - 1e-8 * a.r);
+    EXPECT_LE(a.y + a.r, low + 0.5 * s.width + 1e-8 * a.r);
+    for (int j = i + 1; j < static_cast<int>(p.discs.size()); ++j) {
+      const double radii = a.r + p.disc(j).r, between = gap(a, p.disc(j), s.length);
+      ASSERT_GE(between, -1e-8 * radii) << "discs " << i << " and " << j;
+      if (a.block == p.disc(j).block && between < std::max(1e-5, (s.link_ratio - 1.0) * radii))
+        links.emplace_back(i, j);
+    }
+  }
+  EXPECT_EQ(p.links, links);
 }
 
 class PackingOf40 : public testing::Test {
@@ -50,52 +77,17 @@ class PackingOf40 : public testing::Test {
 };
 LSM::Packing *PackingOf40::packing_ = nullptr;
 
-TEST_F(PackingOf40, RadiiAreInRange) {
+TEST_F(PackingOf40, FitsAndIsLinked) {
+  expect_valid(packing(), settings(length));
   double smallest = 1e9, largest = 0.0;
   for (const auto &d : packing().discs) {
     smallest = std::min(smallest, d.r);
     largest = std::max(largest, d.r);
   }
-  EXPECT_GE(smallest, 0.1);
-  EXPECT_LE(largest, 1.0);
   // The radii cover the range up to both ends.
   EXPECT_LT(smallest, 0.11);
   EXPECT_GT(largest, 0.95);
   EXPECT_EQ(smallest, packing().rmin_found);
-}
-
-TEST_F(PackingOf40, DiscsLieInsideTheirBlock) {
-  for (const auto &d : packing().discs) {
-    EXPECT_GE(d.x, 0.0);
-    EXPECT_LT(d.x, length);
-    ASSERT_TRUE(d.block == 0 || d.block == 1);
-    const double low = d.block == 0 ? 0.0 : 15.0;
-    EXPECT_GE(d.y - d.r, low - 1e-8 * d.r);
-    EXPECT_LE(d.y + d.r, low + 15.0 + 1e-8 * d.r);
-  }
-}
-
-TEST_F(PackingOf40, NothingOverlaps) {
-  for (int i = 0; i < count(); ++i)
-    for (int j = i + 1; j < count(); ++j) {
-      const LSM::Disc &a = disc(i), &b = disc(j);
-      ASSERT_GE(gap(a, b, length), -1e-8 * (a.r + b.r)) << "discs " << i << " and " << j;
-    }
-}
-
-TEST_F(PackingOf40, LinksAreExactlyTheTangentPairsOfOneBlock) {
-  std::set<std::pair<int, int>> expected;
-  for (int i = 0; i < count(); ++i)
-    for (int j = i + 1; j < count(); ++j)
-      if (disc(i).block == disc(j).block && gap(disc(i), disc(j), length) < 1e-5)
-        expected.emplace(i, j);
-  const std::set<std::pair<int, int>> found(packing().links.begin(), packing().links.end());
-  EXPECT_EQ(found.size(), packing().links.size()) << "a link is listed twice";
-  EXPECT_EQ(found, expected);
-  EXPECT_TRUE(std::is_sorted(packing().links.begin(), packing().links.end()));
-}
-
-TEST_F(PackingOf40, TangenciesAreExact) {
   // Each disc placed by the filling stage touches three objects. Pairs that come closer than the
   // link gap by chance are rare; all others are tangent to rounding.
   int exact = 0;
@@ -165,30 +157,25 @@ TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   s.remove_loose = false;
   const LSM::Packing all = LSM::make_packing(s);
   std::vector<bool> there(all.discs.size(), true);
-  const auto links_of = [&](int disc) {
-    int n = 0;
-    for (const auto &l : all.links)
-      if ((l.first == disc || l.second == disc) && there.at(static_cast<std::size_t>(l.first)) &&
-          there.at(static_cast<std::size_t>(l.second)))
-        ++n;
-    return n;
-  };
   int loose = 0, loose_tangent = 0, gone = 0, gone_tangent = 0;
   for (bool first = true, again = true; again; first = false) {
+    std::vector<int> links(all.discs.size(), 0);
+    for (const auto &[i, j] : all.links)
+      if (there.at(static_cast<std::size_t>(i)) && there.at(static_cast<std::size_t>(j)))
+        for (const int end : {i, j}) ++links[static_cast<std::size_t>(end)];
     again = false;
-    std::vector<int> out;
-    for (int i = 0; i < static_cast<int>(all.discs.size()); ++i) {
-      const LSM::Disc &d = all.discs.at(static_cast<std::size_t>(i));
-      if (!there[static_cast<std::size_t>(i)] || d.plate || links_of(i) >= 3) continue;
-      out.push_back(i);
+    for (std::size_t i = 0; i < all.discs.size(); ++i) {
+      const LSM::Disc &d = all.discs[i];
+      if (!there[i] || d.plate || links[i] >= 3) continue;
+      there[i] = false;
+      again = true;
       const bool tangent = std::fabs(d.y - 15.0) - d.r < 1e-5;
-      if (first) loose_tangent += tangent;
+      ++gone;
       gone_tangent += tangent;
+      if (!first) continue;
+      ++loose;
+      loose_tangent += tangent;
     }
-    if (first) loose = static_cast<int>(out.size());
-    gone += static_cast<int>(out.size());
-    for (const int i : out) there[static_cast<std::size_t>(i)] = false;
-    again = !out.empty();
   }
   EXPECT_EQ(all.loose, loose);
   EXPECT_EQ(all.loose_tangent, loose_tangent);
@@ -271,13 +258,7 @@ TEST(Packing, WithoutFacesDiscsAreFittedToTheFaultLine) {
   for (const double length : {40.0, 41.0})
     for (const bool random_seeds : {true, false}) {
       const LSM::Packing p = LSM::make_packing(without_faces(length, random_seeds));
-      for (std::size_t i = 0; i < p.discs.size(); ++i) {
-        const LSM::Disc &a = p.discs[i];
-        EXPECT_GE(std::min({a.y, 30.0 - a.y, std::fabs(a.y - 15.0)}), a.r * (1.0 - 1e-8));
-        EXPECT_EQ(a.block, a.y < 15.0 ? 0 : 1);
-        for (std::size_t j = i + 1; j < p.discs.size(); ++j)
-          ASSERT_GE(gap(a, p.discs[j], length), -1e-8 * (a.r + p.discs[j].r));
-      }
+      expect_valid(p, without_faces(length, random_seeds));
       EXPECT_GT(p.fault_tangent[0], 1.4 * length);
       EXPECT_GT(p.fault_tangent[1], 1.4 * length);
       EXPECT_NEAR(static_cast<double>(p.discs.size()) / length, 65.3, 1.5);
@@ -322,15 +303,7 @@ TEST(Packing, CloseDiscsAreLinkedToo) {
     const LSM::Packing tangent = LSM::make_packing(s);
     s.link_ratio = ratio;
     const LSM::Packing p = LSM::make_packing(s);
-    std::vector<std::pair<int, int>> expected;
-    for (int i = 0; i < static_cast<int>(p.discs.size()); ++i)
-      for (int j = i + 1; j < static_cast<int>(p.discs.size()); ++j) {
-        const LSM::Disc &a = p.disc(i), &b = p.disc(j);
-        const double d = gap(a, b, length) + a.r + b.r;
-        if (a.block == b.block && (d < ratio * (a.r + b.r) || d < a.r + b.r + 1e-5))
-          expected.emplace_back(i, j);
-      }
-    EXPECT_EQ(p.links, expected);
+    expect_valid(p, s);
     EXPECT_EQ(p.discs.size(), tangent.discs.size());
     EXPECT_GT(p.links.size(), tangent.links.size() + 10);
   }
@@ -351,12 +324,6 @@ TEST(Packing, DiffersForAnotherSeed) {
 // values are distributed exponentially; a period appears as a line. That of a grid of seeds
 // (spacing 1 and 2) was 16 times its surroundings at length 480. A mean over n packings exceeds r
 // times its expectation with probability exp(-n (r - 1 - ln r)) at most; the bounds are for 1e-9.
-struct FacePeriods {
-  double highest = 0.0;   ///< largest ratio of a structure factor to the mean of its surroundings
-  double coherent = 0.0;  ///< the same for the coherent sum over the packings
-  double at_highest = 0.0, at_coherent = 0.0;  ///< their wavelengths
-};
-
 std::vector<double> face_places(const LSM::Packing &packing, int block) {
   std::vector<double> places;
   for (const LSM::Disc &d : packing.discs) {
@@ -366,58 +333,47 @@ std::vector<double> face_places(const LSM::Packing &packing, int block) {
   return places;
 }
 
-FacePeriods face_periods(const std::vector<std::vector<double>> &faces, double length) {
-  const int first = static_cast<int>(std::ceil(length / 5.0)),
-            last = static_cast<int>(length / 0.2), around = 20;
-  const double n = static_cast<double>(faces.size());
-  std::vector<double> mean, coherent;
-  for (int m = first - around; m <= last + around; ++m) {
-    std::complex<double> sum = 0.0;
-    double factor = 0.0;
-    for (const auto &face : faces) {
-      std::complex<double> amplitude = 0.0;
-      for (const double x : face) amplitude += std::polar(1.0, 2.0 * M_PI * m * x / length);
-      amplitude /= std::sqrt(static_cast<double>(face.size()));
-      factor += std::norm(amplitude) / n;
-      sum += amplitude;
-    }
-    mean.push_back(factor);
-    coherent.push_back(std::norm(sum) / n);
+/// Largest ratio of a value to the mean of those around it.
+double highest_line(const std::vector<double> &values, const std::vector<double> &means) {
+  const std::size_t around = 20;
+  double highest = 0.0;
+  for (std::size_t k = around; k + around < values.size(); ++k) {
+    const double *const at = means.data() + k;
+    const double sum = std::accumulate(at - around, at + around + 1, -*at);
+    highest = std::max(highest, values[k] * 2.0 * around / sum);
   }
-  FacePeriods found;
-  for (int k = around; k + around < static_cast<int>(mean.size()); ++k) {
-    double expected = 0.0;
-    for (int j = k - around; j <= k + around; ++j)
-      if (j != k) expected += mean[static_cast<std::size_t>(j)] / (2.0 * around);
-    const double wavelength = length / (first - around + k);
-    const auto at = static_cast<std::size_t>(k);
-    if (mean[at] > found.highest * expected) {
-      found.highest = mean[at] / expected;
-      found.at_highest = wavelength;
-    }
-    if (coherent[at] > found.coherent * expected) {
-      found.coherent = coherent[at] / expected;
-      found.at_coherent = wavelength;
-    }
-  }
-  return found;
+  return highest;
 }
 
 void expect_no_period(double length, int packings, double highest) {
-  std::vector<std::vector<double>> lower, upper, both;
+  std::vector<std::vector<double>> faces[3];  // lower, upper, both
   for (int seed = 1; seed <= packings; ++seed) {
     const LSM::Packing p = LSM::make_packing(settings(length, static_cast<std::uint64_t>(seed)));
-    lower.push_back(face_places(p, 0));
-    upper.push_back(face_places(p, 1));
-    both.push_back(lower.back());
-    both.back().insert(both.back().end(), upper.back().begin(), upper.back().end());
-    EXPECT_GT(static_cast<double>(lower.back().size()), 0.3 * length);
+    std::vector<double> lower = face_places(p, 0), upper = face_places(p, 1);
+    EXPECT_GT(static_cast<double>(lower.size()), 0.3 * length);
+    faces[0].push_back(lower);
+    faces[1].push_back(upper);
+    lower.insert(lower.end(), upper.begin(), upper.end());
+    faces[2].push_back(lower);
   }
-  for (const auto *faces : {&lower, &upper, &both}) {
-    const FacePeriods found = face_periods(*faces, length);
-    EXPECT_LT(found.highest, highest) << "at wavelength " << found.at_highest;
+  for (const auto &some : faces) {
+    std::vector<double> factors, coherent;  // from wavelength 5 to 0.2, and those around
+    for (double m = std::ceil(length / 5.0) - 20.0; m <= length / 0.2 + 20.0; ++m) {
+      std::complex<double> sum = 0.0;
+      double factor = 0.0;
+      for (const std::vector<double> &face : some) {
+        std::complex<double> amplitude = 0.0;
+        for (const double x : face) amplitude += std::polar(1.0, 2.0 * M_PI * m * x / length);
+        amplitude /= std::sqrt(static_cast<double>(face.size()));
+        factor += std::norm(amplitude) / packings;
+        sum += amplitude;
+      }
+      factors.push_back(factor);
+      coherent.push_back(std::norm(sum) / packings);
+    }
+    EXPECT_LT(highest_line(factors, factors), highest);
     // exponential distribution, with probability 1e-9 / (number of wavelengths)
-    EXPECT_LT(found.coherent, 21.0 + std::log(5.0 * length)) << "at " << found.at_coherent;
+    EXPECT_LT(highest_line(coherent, factors), 21.0 + std::log(5.0 * length));
   }
 }
 
@@ -454,8 +410,7 @@ TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
     return Place(d.x, d.block == 0 ? s.width - d.y : d.y, d.r);
   };
   for (int i = 0; i < static_cast<int>(p.discs.size()); ++i)
-    if (p.discs[static_cast<std::size_t>(i)].block == 0)
-      lower[place(p.discs[static_cast<std::size_t>(i)])] = i;
+    if (p.disc(i).block == 0) lower[place(p.disc(i))] = i;
   EXPECT_EQ(2 * lower.size(), p.discs.size());
   std::vector<int> image(p.discs.size(), -1);
   int facing = 0;
@@ -464,7 +419,7 @@ TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
     if (d.block == 0) continue;
     const auto found = lower.find(place(d));
     ASSERT_NE(found, lower.end());
-    const LSM::Disc &other = p.discs[static_cast<std::size_t>(found->second)];
+    const LSM::Disc &other = p.disc(found->second);
     EXPECT_EQ(d.fault, other.fault);
     EXPECT_EQ(d.plate, other.plate);
     image[static_cast<std::size_t>(found->second)] = static_cast<int>(i);
@@ -478,7 +433,7 @@ TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
   std::set<std::pair<int, int>> links(p.links.begin(), p.links.end());
   std::size_t mirrored = 0;
   for (const auto &l : p.links) {
-    if (p.discs[static_cast<std::size_t>(l.first)].block != 0) continue;
+    if (p.disc(l.first).block != 0) continue;
     const auto ends = std::minmax(image[static_cast<std::size_t>(l.first)],
                                   image[static_cast<std::size_t>(l.second)]);
     mirrored += links.count({ends.first, ends.second});
@@ -510,27 +465,13 @@ TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
     s.remove_loose = false;  // in some cases no disc would be left
     const LSM::Packing p = LSM::make_packing(s);
     ASSERT_GT(p.discs.size(), 10u);
-    std::size_t tangent = 0;
-    for (std::size_t i = 0; i < p.discs.size(); ++i) {
-      const LSM::Disc &a = p.discs[i];
-      const double low = a.block == 0 ? 0.0 : 0.5 * c.width;
-      EXPECT_GE(a.y - a.r, low - 1e-8 * a.r);
-      EXPECT_LE(a.y + a.r, low + 0.5 * c.width + 1e-8 * a.r);
-      EXPECT_GE(a.r, c.rmin);
-      EXPECT_LE(a.r, c.rmax);
-      for (std::size_t j = i + 1; j < p.discs.size(); ++j) {
-        const double g = gap(a, p.discs[j], c.length);
-        ASSERT_GE(g, -1e-8 * (a.r + p.discs[j].r));
-        if (g < 1e-5 && a.block == p.discs[j].block) ++tangent;
-      }
-    }
-    EXPECT_EQ(tangent, p.links.size());
+    expect_valid(p, s);
   }
 }
 
 // Whether velocity Verlet is stable with the links, and the contacts (k = kt = 1) that exist when
 // the upper block has been pushed down by `depth` and along the fault by `shift`: 4 / dt^2 is above
-// all eigenvalues of stiffness over mass if 4 / dt^2 minus this matrix has a Cholesky factor.
+// all eigenvalues of stiffness over mass.
 bool stable(LSM::Packing p, double length, const std::vector<double> &masses, double step,
             double depth, double shift) {
   for (LSM::Disc &d : p.discs)
@@ -540,8 +481,7 @@ bool stable(LSM::Packing p, double length, const std::vector<double> &masses, do
     }
   const std::set<std::pair<int, int>> linked(p.links.begin(), p.links.end());
   const std::size_t size = 2 * p.discs.size();
-  std::vector<std::vector<double>> a(size, std::vector<double>(size, 0.0));
-  for (std::size_t n = 0; n < size; ++n) a[n][n] = 4.0 / (step * step);
+  unit::Matrix a(size, std::vector<double>(size, 0.0));
   for (std::size_t i = 0; i < p.discs.size(); ++i)
     for (std::size_t j = i + 1; j < p.discs.size(); ++j) {
       const auto [dx, dy] = LSM::link_vector(length, p.discs[i], p.discs[j]);
@@ -551,21 +491,13 @@ bool stable(LSM::Packing p, double length, const std::vector<double> &masses, do
       for (std::size_t c = 0; c < 2; ++c)
         for (std::size_t e = 0; e < 2; ++e) {
           const double k = link ? n[c] * n[e] : (c == e ? 1.0 : 0.0);
-          a[2 * i + c][2 * i + e] -= k / masses[i];
-          a[2 * j + c][2 * j + e] -= k / masses[j];
-          a[2 * i + c][2 * j + e] += k / std::sqrt(masses[i] * masses[j]);
-          a[2 * j + c][2 * i + e] += k / std::sqrt(masses[i] * masses[j]);
+          a[2 * i + c][2 * i + e] += k / masses[i];
+          a[2 * j + c][2 * j + e] += k / masses[j];
+          a[2 * i + c][2 * j + e] -= k / std::sqrt(masses[i] * masses[j]);
+          a[2 * j + c][2 * i + e] -= k / std::sqrt(masses[i] * masses[j]);
         }
     }
-  for (std::size_t n = 0; n < size; ++n) {
-    if (!(a[n][n] > 0.0)) return false;
-    for (std::size_t m = n + 1; m < size; ++m) {
-      if (a[n][m] == 0.0) continue;
-      const double factor = a[n][m] / a[n][n];
-      for (std::size_t k = m; k < size; ++k) a[m][k] -= factor * a[n][k];
-    }
-  }
-  return true;
+  return unit::above_all(a, 4.0 / (step * step));
 }
 
 TEST(Packing, MassesForAStepAreEnoughWhateverTheContacts) {
@@ -605,15 +537,10 @@ template <class Change>
 void expect_refused(const std::string &name, Change change) {
   LSM::PackingSettings s = settings(20.0);
   change(s);
-  try {
-    LSM::make_packing(s);
-    ADD_FAILURE() << name << " was accepted";
-  } catch (const std::invalid_argument &e) {
-    const std::string what = e.what();
-    EXPECT_EQ(what.rfind(name + " = ", 0), 0u) << what;
-    EXPECT_NE(what.find("expected"), std::string::npos) << what;
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  }
+  const std::string what = unit::message_of<std::invalid_argument>([&s] { LSM::make_packing(s); });
+  EXPECT_EQ(what.rfind(name + " = ", 0), 0u) << what;
+  EXPECT_TRUE(unit::contains(what, "expected"));
+  EXPECT_EQ(what.find('\n'), std::string::npos) << what;
 }
 
 TEST(Packing, DiscsAtTheFaultMayHaveARangeOfTheirOwn) {

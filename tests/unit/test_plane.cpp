@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -13,6 +14,7 @@
 
 #include "crack.h"
 #include "numerics/random.h"
+#include "slow_ruptures.h"
 #include "some_ruptures.h"
 #include "unit_files.h"
 
@@ -205,53 +207,27 @@ TEST(Plane, CornersConnectAndEndsDoNot) {
 /// Numbers of a rupture, found by a search through space and time.
 using Numbers = std::tuple<std::int64_t, std::int64_t, double, double, double, double, double>;
 
-/// Length of the shortest row of places that has all of some; the whole ring if no gap in it is
-/// wider than the given one.
-int span_of(const std::set<int> &places, int count, bool ring, int gap) {
-  if (!ring) return *places.rbegin() - *places.begin() + 1;
-  int widest = count - 1 - *places.rbegin() + *places.begin();
-  for (auto at = std::next(places.begin()); at != places.end(); ++at)
-    widest = std::max(widest, *at - *std::prev(at) - 1);
-  return widest <= gap ? count : count - widest;
-}
-
-std::vector<Numbers> search(std::vector<Slip> left, const FaultGrid &grid,
+std::vector<Numbers> search(const std::vector<Slip> &slips, const FaultGrid &grid,
                             const RuptureSettings &settings) {
-  const auto near = [](int a, int b, int places, bool ring, int reach) {
-    const int d = std::abs(a - b);
-    return d <= reach || (ring && places - d <= reach);
-  };
+  std::map<unit::Cell, Slip> of;
+  std::set<unit::Cell> slides;
+  for (const Slip &s : slips) of[*slides.emplace(s.interval, s.bin, s.row).first] = s;
   std::vector<Numbers> found;
-  while (!left.empty()) {
-    std::vector<Slip> all = {left.back()};
-    left.pop_back();
-    for (std::size_t k = 0; k < all.size(); ++k)
-      for (std::size_t m = left.size(); m-- > 0;) {
-        const Slip a = all[k], b = left[m];
-        if (std::abs(a.interval - b.interval) > settings.memory ||
-            !near(a.bin, b.bin, grid.bins, grid.ring, settings.gap + 1) ||
-            !near(a.row, b.row, grid.rows, grid.ring_dip, settings.gap + 1))
-          continue;
-        all.push_back(b);
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(m));
-      }
+  for (const std::set<unit::Cell> &all : unit::connected(slides, grid, settings)) {
     std::set<int> bins, rows, cells;
-    std::int64_t first = INT64_MAX, last = 0;
     double strike = 0.0, dip = 0.0;
-    for (const Slip &s : all) {
+    for (const unit::Cell &one : all) {
+      const Slip &s = of.at(one);
       bins.insert(s.bin);
       rows.insert(s.row);
       cells.insert(s.bin * grid.rows + s.row);
-      first = std::min(first, s.interval);
-      last = std::max(last, s.interval);
       strike += s.strike;
       dip += s.dip;
     }
-    const int gap = std::min(settings.gap, std::max(0, grid.bins / 2 - 1)),
-              gap_dip = std::min(settings.gap, std::max(0, grid.rows / 2 - 1));
-    found.emplace_back(first - 1, last, static_cast<double>(cells.size()), strike, dip,
-                       span_of(bins, grid.bins, grid.ring, gap),
-                       span_of(rows, grid.rows, grid.ring_dip, gap_dip));
+    found.emplace_back(std::get<0>(*all.begin()) - 1, std::get<0>(*all.rbegin()),
+                       static_cast<double>(cells.size()), strike, dip,
+                       unit::span_of(bins, grid.bins, grid.ring, settings.gap).second,
+                       unit::span_of(rows, grid.rows, grid.ring_dip, settings.gap).second);
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -379,33 +355,6 @@ TEST_F(PlaneFiles, HistoriesAreOfVersion2) {
   expect("# bin_dip = 1", "# bin_dip = 0", "bin_dip is 0, expected a positive number");
   expect("# z0 = -16.5", "# zo = -16.5", "parameter 'z0' is missing in the header");
   expect("hist-2", "hist-3", "another version, expected version 1 to 2");
-}
-
-TEST_F(PlaneFiles, HistoriesGoOnByteForByte) {
-  const unit::Crack crack(1.0);
-  crack.record(file());
-  const std::string whole = unit::slurp(file());
-  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(LSM::files::open_plain(file())).info();
-  for (const std::int64_t stop : {0, 3, 7}) {
-    LSM::SlipHistoryWriter before, after;
-    before.create(file(), info, crack.grid.step0, 0.0, crack.row(0).stress);
-    const auto go_on = [&](LSM::SlipHistoryWriter &writer, std::int64_t from, std::int64_t to) {
-      for (std::int64_t n = from + 1; n <= to; ++n)
-        writer.add(crack.grid.step0 + n * crack.grid.interval, 0.0, crack.row(n), n > 2);
-    };
-    go_on(before, 0, stop);
-    const std::vector<double> state = before.state();
-    go_on(before, stop, 10);
-    before.close();
-    const std::string until_10 = unit::slurp(file());
-    after.find_cut(file(), info, state);
-    after.cut();
-    go_on(after, stop, 10);
-    after.close();
-    EXPECT_EQ(unit::slurp(file()), until_10);
-  }
-  EXPECT_EQ(whole.size() % static_cast<std::size_t>(info.record_bytes()),
-            unit::slurp(file()).size() % static_cast<std::size_t>(info.record_bytes()));
 }
 
 }  // namespace

@@ -162,37 +162,6 @@ TEST(DropLocator, AtTheEndOfARunThePartOfTheIntervalCounts) {
   EXPECT_EQ(a.drops[0].peak_slip, 0.5);
 }
 
-TEST(DropLocator, GoesOnFromItsState) {
-  Located a, b;
-  a.locator.add_interval(105, slips({1.0F, 3.0F, 0.0F, 0.0F}), 103, a.report);
-  Drop waiting = drop(103, 106);
-  waiting.friction_work = 0.25;
-  waiting.friction_total = 0.75;
-  a.locator.add(waiting, a.report);
-  b.locator.add_interval(105, slips({9.0F, 9.0F, 9.0F, 9.0F}), 100, b.report);
-  b.locator.set_state(a.locator.state());
-  for (Located *one : {&a, &b}) {
-    one->locator.add_interval(110, slips({0.5F, 0.0F, 1.0F, 0.0F}), 108, one->report);
-    one->locator.add_interval(115, slips({0.0F, 0.0F, 1.0F, 0.0F}), 108, one->report);
-    one->locator.add(drop(108, 115), one->report);
-  }
-  ASSERT_EQ(a.drops.size(), 2u);
-  ASSERT_EQ(b.drops.size(), 2u);
-  for (std::size_t n = 0; n < 2; ++n) {
-    EXPECT_EQ(a.drops[n].step_start, b.drops[n].step_start);
-    EXPECT_EQ(a.drops[n].slip_moment, b.drops[n].slip_moment);
-    EXPECT_EQ(a.drops[n].x_centroid, b.drops[n].x_centroid);
-    EXPECT_EQ(a.drops[n].peak_slip, b.drops[n].peak_slip);
-    EXPECT_EQ(a.drops[n].friction_work, b.drops[n].friction_work);
-    EXPECT_EQ(a.drops[n].friction_total, b.drops[n].friction_total);
-  }
-  EXPECT_EQ(b.drops[0].friction_total, 0.75);
-  const std::vector<double> state = a.locator.state();
-  for (std::size_t n = 0; n < state.size(); ++n)
-    EXPECT_THROW(b.locator.set_state({state.begin(), state.begin() + static_cast<long>(n)}),
-                 std::invalid_argument);
-}
-
 TEST(DropLocator, AFaultWithEnds) {
   FaultGrid open = four_bins();
   open.ring = false;
