@@ -11,6 +11,7 @@
 #include "files/pe_series.h"
 #include "files/slip_history.h"
 #include "read_catalogue.h"
+#include "same_events.h"
 #include "slow_ruptures.h"
 
 using namespace physics;
@@ -166,29 +167,6 @@ static std::string sheared(const std::string &events) {
   return "variable prefix index whole\n" + fault_read() + fault_shear(events) + "thermo 1000\n";
 }
 
-static void expect_same_ruptures(const std::vector<LSM::Rupture> &a,
-                                 const std::vector<LSM::Rupture> &b, double tolerance) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    SCOPED_TRACE(n);
-    EXPECT_EQ(a[n].step_start, b[n].step_start);
-    EXPECT_EQ(a[n].step_end, b[n].step_end);
-    EXPECT_EQ(a[n].t_start, b[n].t_start);
-    EXPECT_EQ(a[n].t_end, b[n].t_end);
-    EXPECT_EQ(a[n].rupture_length, b[n].rupture_length);
-    EXPECT_NEAR(a[n].x_begin, b[n].x_begin, 1e-12);
-    EXPECT_NEAR(a[n].x_hypocentre, b[n].x_hypocentre, 1e-12);
-    EXPECT_NEAR(a[n].size, b[n].size, tolerance * std::fabs(a[n].size));
-    EXPECT_NEAR(a[n].slip_moment, b[n].slip_moment, tolerance * std::fabs(a[n].slip_moment));
-    EXPECT_NEAR(a[n].mean_slip, b[n].mean_slip, tolerance * std::fabs(a[n].mean_slip));
-    EXPECT_NEAR(a[n].stress_drop, b[n].stress_drop, tolerance);
-    EXPECT_NEAR(a[n].peak_slip, b[n].peak_slip, tolerance * a[n].peak_slip);
-    EXPECT_NEAR(a[n].pe_start, b[n].pe_start, tolerance * a[n].pe_start);
-    EXPECT_NEAR(a[n].pe_end, b[n].pe_end, tolerance * a[n].pe_end);
-    EXPECT_NEAR(std::remainder(a[n].x_centroid - b[n].x_centroid, 40.0), 0.0, std::sqrt(tolerance));
-  }
-}
-
 // The trajectory and the drops are those without ruptures, to the last bit, and the ruptures are
 // those found by a search through the history.
 TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
@@ -201,12 +179,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   const auto plain = unit::read_catalogue(path("plain.csv")).events,
              drops = unit::read_catalogue(path("found.drops")).events;
   ASSERT_GT(plain.size(), 3u);
-  ASSERT_EQ(plain.size(), drops.size());
-  for (std::size_t n = 0; n < plain.size(); ++n) {
-    EXPECT_EQ(plain[n].id, drops[n].id);
-    EXPECT_EQ(plain[n].step_end, drops[n].step_end);
-    EXPECT_EQ(plain[n].size, drops[n].size);
-  }
+  unit::expect_same_events(plain, drops);
 
   const auto catalogue = unit::read_catalogue<LSM::Rupture>(path("found.csv"));
   EXPECT_EQ(r.last("c_events"), static_cast<double>(drops.size()));
@@ -226,7 +199,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
       if (e.rupture_length > 3.0) ++large;
     }
   EXPECT_GT(large, 5u);
-  expect_same_ruptures(catalogue.events, expected, 1e-9);
+  unit::expect_same_events(catalogue.events, expected, 1e-9, 1e-9, 40.0);
 
   // The moments add up to the slip of the fault, which follows the plates.
   double moments = 0.0, total = 0.0;
@@ -375,7 +348,7 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
     for (const auto &e : a)
       if (e.step_start < 1500 && e.step_end > 1505) ++open;
     EXPECT_GT(open, 0u) << "no rupture was open when the restart file was written";
-    expect_same_ruptures(a, b, 1e-6);
+    unit::expect_same_events(a, b, 1e-6, 1e-6, 40.0);
     const auto x = records_of(path("whole" + tag + ".slip")),
                y = records_of(path("resumed" + tag + ".slip"));
     ASSERT_EQ(x.size(), y.size());

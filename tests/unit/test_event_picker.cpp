@@ -12,6 +12,7 @@
 #include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "numerics/random.h"
+#include "same_events.h"
 #include "unit_files.h"
 
 namespace {
@@ -21,31 +22,13 @@ using LSM::EventFilter;
 using LSM::EventPicker;
 using LSM::PickerReading;
 using LSM::PickerSettings;
+using unit::expect_same_events;
 
 PickerSettings settings(PickerReading reading, double lambda) {
   PickerSettings out;
   out.reading = reading;
   out.lambda = lambda;
   return out;
-}
-
-void expect_same(const Event &a, const Event &b) {
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.t_start, b.t_start);
-  EXPECT_EQ(a.t_end, b.t_end);
-  EXPECT_EQ(a.step_start, b.step_start);
-  EXPECT_EQ(a.step_end, b.step_end);
-  EXPECT_EQ(a.size, b.size);
-  EXPECT_EQ(a.pe_start, b.pe_start);
-  EXPECT_EQ(a.pe_end, b.pe_end);
-}
-
-void expect_same(const std::vector<Event> &a, const std::vector<Event> &b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    SCOPED_TRACE(i);
-    expect_same(a[i], b[i]);
-  }
 }
 
 /// Returns the events of the series PE(0), PE(1), ... at times 0, dt, ...
@@ -179,7 +162,7 @@ TEST(EventPicker, LiteralFollowsTheRawSignOnceItsMemoryIsGone) {
   EventPicker smooth(settings(PickerReading::exponential, 0.99));
   const std::vector<Event> expected = pick(raw, pe);
   EXPECT_GT(expected.size(), 2000U);
-  expect_same(pick(literal, pe), expected);
+  expect_same_events(pick(literal, pe), expected);
   EXPECT_LT(pick(smooth, pe).size(), expected.size() / 10);
 }
 
@@ -305,7 +288,7 @@ TEST(EventPicker, GoesOnFromAStateSavedAnywhere) {
           pick(after, {middle, pe.end()}, 1.0, static_cast<std::int64_t>(cut));
       events.insert(events.end(), rest.begin(), rest.end());
       SCOPED_TRACE(cut);
-      expect_same(events, expected);
+      expect_same_events(events, expected);
       EXPECT_EQ(std::memcmp(&after.state(), &whole.state(), sizeof(bytes)), 0);
       if (HasFailure()) return;
     }
@@ -347,7 +330,7 @@ TEST(EventPicker, GivenChangesPickTheSame) {
     if (by_change.push_change(step, static_cast<double>(step), pe[i], change, event))
       events.push_back(event);
   }
-  expect_same(events, expected);
+  expect_same_events(events, expected);
 }
 
 TEST(EventPicker, GivenChangesSeeWhatDifferencesOfLargeEnergiesLose) {

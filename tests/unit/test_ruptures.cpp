@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "numerics/random.h"
+#include "same_events.h"
 #include "slow_ruptures.h"
 #include "some_ruptures.h"
 
@@ -194,28 +196,20 @@ TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
             ASSERT_EQ(slow.slip_elsewhere, 0.0);
             for (const bool restarts : {false, true}) {
               const std::vector<Rupture> found = find(pattern, grid, settings, restarts);
-              ASSERT_EQ(found.size(), slow.events.size());
-              for (std::size_t k = 0; k < found.size(); ++k) {
-                const Rupture &a = found[k], &b = slow.events[k];
-                ASSERT_EQ(a.step_start, b.step_start);
-                ASSERT_EQ(a.step_end, b.step_end);
-                ASSERT_EQ(a.t_end, b.t_end);
-                ASSERT_EQ(a.pe_start, b.pe_start);
-                ASSERT_EQ(a.pe_end, b.pe_end);
-                ASSERT_NEAR(a.size, b.size, 1e-12);
-                ASSERT_NEAR(a.slip_moment, b.slip_moment, 1e-12);
-                ASSERT_EQ(a.rupture_length, b.rupture_length);
-                ASSERT_EQ(a.x_begin, b.x_begin);
-                ASSERT_NEAR(a.mean_slip, b.mean_slip, 1e-12);
-                ASSERT_NEAR(a.peak_slip, b.peak_slip, 1e-12);
-                ASSERT_NEAR(a.stress_drop, b.stress_drop, 1e-12);
-                if (a.rupture_length < bins * grid.width / 2) {  // else slips may balance
-                  ASSERT_NEAR(std::remainder(a.x_centroid - b.x_centroid, grid.length()), 0, 1e-9);
-                  ASSERT_GE(a.x_centroid, grid.x0);
-                  ASSERT_LT(a.x_centroid, grid.x0 + grid.length());
-                }
-                if (gap > 0 && a.rupture_length < bins * grid.width) ++holes;
+              std::vector<Rupture> expected = slow.events;
+              for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k) {
+                const Rupture &one = found[k];
+                if (gap > 0 && one.rupture_length < bins * grid.width) ++holes;
+                EXPECT_GE(one.x_centroid, grid.x0);
+                EXPECT_LT(one.x_centroid, grid.x0 + grid.length());
+                // Several may slip most at first; where slips around the ring may balance, the
+                // centroid is any.
+                expected[k].x_hypocentre = one.x_hypocentre;
+                if (one.rupture_length >= bins * grid.width / 2)
+                  expected[k].x_centroid = one.x_centroid;
               }
+              unit::expect_same_events(found, expected, 1e-12, 1e-9, grid.length());
+              if (HasFailure()) return;
             }
           }
   EXPECT_GT(several, 100U);
