@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "facing_spheres.h"
+
 #define LAMMPS_LIB_MPI
 #include "library.h"
 
@@ -69,29 +71,15 @@ velocity thrown set -0.1 0.02 0
 
 // Upper spheres that slide over lower ones, which face them and are held.
 std::string sliding(int dimension, const std::string &law) {
-  std::string script = "dimension " + std::to_string(dimension) + "\nboundary p f " +
-                       (dimension == 3 ? "f" : "p") + R"(
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify mode single cutoff 4.5
-neighbor 0.4 bin
-region box block 0 16 -10 10 )" +
-                       (dimension == 3 ? "-4 4" : "-0.5 0.5") + "\ncreate_box 2 box\n";
-  for (const char *of : {"1 single ", "2 single "})
-    for (int n = 0; n < 8; n++)
-      script += std::string("create_atoms ") + of + std::to_string(2 * n + 1) +
-                (of[0] == '1' ? " 0 0\n" : " 1.95 0\n");
-  return script + R"(
-set group all diameter 2
-set group all mass 1
-group below type 1
-group above type 2
-velocity above set 0.01 -0.002 0
-)" + (dimension == 3 ? "velocity above set NULL NULL 0.004\n" : "") +
-         "pair_style lsm/friction " + law.substr(0, law.find(' ')) +
-         "\npair_coeff * * off\npair_coeff 1 2 1.0 1.0 " + law.substr(law.find(' ') + 1) +
-         "\ntimestep 0.1\nfix move above lsm/nve viscosity 0.01\n";
+  const bool space = dimension == 3;
+  return physics::facing_spheres(
+             8, space ? 1 : 0,
+             "dimension " + std::to_string(dimension) + "\nboundary p f " + (space ? "f" : "p"),
+             space ? "0 16 -10 10 -4 4" : "0 16 -10 10 -0.5 0.5") +
+         "velocity above set 0.01 -0.002 0\n" +
+         (space ? "velocity above set NULL NULL 0.004\n" : "") + "pair_style lsm/friction " +
+         law.substr(0, law.find(' ')) + "\npair_coeff * * off\npair_coeff 1 2 1.0 1.0 " +
+         law.substr(law.find(' ') + 1) + "\nfix move above lsm/nve viscosity 0.01\n";
 }
 
 const char *const slip =
@@ -417,27 +405,9 @@ fix go all lsm/nve
 void traction_keeps_contacts() {
   std::vector<double> forces[2];
   for (const char *fix : {"", "fix load all lsm/traction lower upper 0.0 0.0\n"}) {
-    Session one(R"(dimension 2
-boundary f f p
-newton off
-atom_style hybrid bond sphere
-atom_modify map array
-comm_modify mode single cutoff 2.8
-neighbor 0.1 bin
-special_bonds lj/coul 0 1 1
-create_lsm_fault lattice length 12 width 16 spacing 1 mass r2 8
-bond_style lsm/linked
-bond_coeff * 1.0
-pair_style lsm/friction
-pair_coeff * * 1.0 1.0 0.6
-group lower type 3
-group upper type 4
-group above type 2 4 6
-velocity above set 0.01 -0.005 0
-fix move all lsm/nve
-timestep 0.1
-run 20
-)");
+    Session one(
+        physics::lattice_fault("create_lsm_fault lattice length 12 width 16 spacing 1 mass r2 8") +
+        "unfix load\ngroup above type 2 4 6\nvelocity above set 0.01 -0.005 0\nrun 20\n");
     one.run(fix + std::string("run 0\n"));
     check(one.error.empty(), one.error);
     forces[*fix != '\0'] = one.state(false)["f"];

@@ -102,11 +102,10 @@ TEST_F(Hybrid, ForeignBondsAreNamedAndDoNotCountAsStrain) {
 }
 
 TEST_F(Hybrid, BreakableLinksUnderBondHybrid) {
-  std::string text = hybrid_bonds() + recorded("strainlimit 10 ledger yes") + "thermo 5\nrun 20\n";
-  const std::string unbreakable = "2 lsm/linked 1.0";
-  text.replace(text.find(unbreakable), unbreakable.size(), "2 lsm/linked 1.0 1.05");
+  const std::string script = replaced(hybrid_bonds(), "2 lsm/linked 1.0", "2 lsm/linked 1.0 1.05") +
+                             recorded("strainlimit 10 ledger yes") + "thermo 5\nrun 20\n";
   for (int ranks : {1, 2}) {
-    const Result r = ran(text, {}, ranks);
+    const Result r = ran(script, {}, ranks);
     EXPECT_EQ(r.last("Bonds"), 1.0);
     EXPECT_NEAR(r.last("c_events[14]"), 0.5 * 0.2 * 0.2, 1e-14);
   }
@@ -353,16 +352,15 @@ thermo_modify     norm no format float %.17g
 }  // namespace
 
 TEST_F(Refused, RadiiThatChangeDuringARun) {
-  std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n");
-  const std::string style = "hybrid bond sphere";
-  scene.replace(scene.find(style), style.size(), "hybrid bond sphere 1");
-  scene += "variable size equal 2.0+0.001*step\nfix grow all adapt 1 atom diameter v_size\n";
+  const std::string scene =
+      replaced(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n"), "hybrid bond sphere",
+               "hybrid bond sphere 1") +
+      "variable size equal 2.0+0.001*step\nfix grow all adapt 1 atom diameter v_size\n";
   refused({"lsm/", "fix grow"}, scene + "fix move all nve\nrun 10\n");
-  std::string linked = scene;
-  linked +=
-      "pair_style zero 2.0\npair_coeff * *\ncreate_bonds single/bond 1 1 2\nfix move all nve\nrun "
-      "10\n";
-  refused({"lsm/linked", "fix grow"}, linked);
+  refused({"lsm/linked", "fix grow"},
+          scene +
+              "pair_style zero 2.0\npair_coeff * *\ncreate_bonds single/bond 1 1 2\n"
+              "fix move all nve\nrun 10\n");
   refused(
       {"lsm/nve", "fix grow"},
       scene +
@@ -381,11 +379,9 @@ TEST_F(Refused, SpecialBonds) {
 }
 
 TEST_F(Refused, BoxSoSmallThatAPairMeetsTwice) {
-  std::string scene = shear_contact();
-  for (const auto &[from, to] :
-       {std::pair<std::string, std::string>{"boundary          f f p", "boundary          p f p"},
-        {"block -30 30", "block -2.3 2.3"}})
-    scene.replace(scene.find(from), from.size(), to);
+  const std::string scene =
+      replaced(replaced(shear_contact(), "boundary          f f p", "boundary          p f p"),
+               "block -30 30", "block -2.3 2.3");
   refused({"lsm/friction", "period"}, scene + "fix move all lsm/nve\nrun 1\n");
 }
 
@@ -406,10 +402,10 @@ TEST_F(Refused, UnitsInWhichForceTimesDistanceIsNoEnergy) {
   for (const char *line :
        {"fix walls all lsm/plates bottom top stress 0.1\n", "fix border top lsm/absorb y 1 1 1\n",
         "fix move all lsm/nve viscosity 1\n", "compute events all lsm/events\n"}) {
-    std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
-                        "group bottom id 1\n" + line + "run 0\n";
-    scene.replace(scene.find("units             lj"), 20, "units metal");
-    refused({"units metal; use lj, si, cgs, micro or nano"}, scene);
+    const std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                              "group bottom id 1\n" + line + "run 0\n";
+    refused({"units metal; use lj, si, cgs, micro or nano"},
+            replaced(scene, "units             lj", "units metal"));
   }
 }
 
@@ -443,11 +439,15 @@ namespace {
 /// Two linked pairs that rub against each other, with another contact across the periodic border.
 std::string rubbing(
     const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
-  std::string text = discs(
-      {{"-3", "0"}, {"-1", "0"}, {"-2", "1.7"}, {"0", "1.7"}, {"29.5", "0"}, {"29", "1.9"}}, 2, 2);
-  const std::string boundary = "boundary          f f p";
-  text.replace(text.find(boundary), boundary.size(), "boundary          p f p");
-  return text + R"(
+  return replaced(discs({{"-3", "0"},
+                         {"-1", "0"},
+                         {"-2", "1.7"},
+                         {"0", "1.7"},
+                         {"29.5", "0"},
+                         {"29", "1.9"}},
+                        2, 2),
+                  "boundary          f f p", "boundary          p f p") +
+         R"(
 set               atom 3*4 type 2
 set               atom 6 type 2
 create_bonds      single/bond 1 1 2
@@ -545,30 +545,4 @@ TEST_F(Works, StaticFrictionThatWasNotGivenIsNotWritten) {
     const std::vector<std::string> found(std::istream_iterator<std::string>(split), {});
     EXPECT_EQ(found.size(), words) << line;
   }
-}
-
-TEST_F(Works, LinksAndFreeContactsInThreeDimensions) {
-  std::string text = discs({{"0", "0"}, {"2", "0"}});
-  for (const auto &[from, to] :
-       {std::pair<std::string, std::string>{"dimension         2", "dimension         3"},
-        {"boundary          f f p", "boundary          f f f"},
-        {"-10 10 -0.5 0.5", "-10 10 -10 10"},
-        {"set group all mass 1.0",
-         "create_atoms 1 single 1 0 1.6\nset group all diameter 2.0\nset group all mass 1.0"}})
-    text.replace(text.find(from), from.size(), to);
-  text +=
-      "create_bonds single/bond 1 1 2\nbond_style lsm/linked\nbond_coeff 1 1.0\npair_style "
-      "lsm/free\n"
-      "pair_coeff 1 1 1.0\ntimestep 0.01\nfix move all lsm/nve\n" +
-      recorded() +
-      "variable pz equal vcm(all,z)\nthermo 200\nrun 200\nprint \"pz = $(v_pz:%.17g)\"\n";
-  const double gap = std::sqrt(1.0 + 1.6 * 1.6) - 2.0;
-  for (const char *newton : {"on", "off"})
-    for (int ranks : {1, 2}) {
-      const Result r = ran(text, {{"newton", newton}}, ranks);
-      EXPECT_NEAR(r.thermo.front().at("c_events[7]"), gap * gap, 1e-14);
-      EXPECT_GT(r.last("KinEng"), 1e-3);
-      EXPECT_NEAR(r.value("pz"), 0.0, 1e-14);
-      EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-5);
-    }
 }

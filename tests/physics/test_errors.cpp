@@ -128,9 +128,7 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
     std::vector<std::string> parts;
   };
   const std::vector<Case> cases = {
-      {"catalogue one.csv series one.csv", "", {"catalogue one.csv and series one.csv"}},
-      {"catalogue one.csv series ./one.csv", "", {"series ./one.csv", "the same file"}},
-      {"catalogue soft.csv series one.csv", "", {"the same file"}},
+      {"catalogue one.csv ruptures one.csv", "", {"catalogue one.csv and ruptures one.csv"}},
       {"catalogue there.csv series hard.csv", "", {"the same file"}},
       {"catalogue one.csv series e.state", "", {"e.state", "the same file"}},
       {"catalogue one.csv", "restart 100 one.csv two.csv", {"restart one.csv", "the same file"}},
@@ -138,9 +136,7 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
       {"catalogue one.csv", "dump d all atom 100 one.csv", {"this run writes that file"}},
       {"catalogue one.csv",
        "compute r all lsm/events catalogue one.csv overwrite yes",
-       {"one.csv", "this run"}},
-      {"catalogue one.csv ruptures one.csv", "", {"catalogue one.csv and ruptures one.csv"}},
-      {"catalogue one.csv.new", "", {"names that end in .new"}}};
+       {"one.csv", "this run"}}};
   for (const auto &one : cases) {
     std::filesystem::remove(path("one.csv"));
     refused(one.parts, shear + one.more + "\nrun 10\n", {{"files", one.files}});
@@ -238,51 +234,33 @@ TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
     }
 }
 
-// No file with events is replaced without `overwrite yes`, on any number of ranks.
+// No file with events is replaced without `overwrite yes`; what else may be in the way is tested by
+// tests/unit/test_event_stream.cpp.
 TEST_F(BadInput, OlderFilesAreKept) {
-  const std::string shear = fault_read() + R"(
-fix               move blocks lsm/nve
-fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
-compute           events all lsm/events ${files}
-thermo            1000
-run               1000
-write_restart     kept.state
-)";
-  const std::string both = "catalogue kept.csv series kept.pe";
-  const std::string again =
-      fault_restart("kept.state") + "timestep 0.03\n" + shear.substr(fault_read().size());
+  const std::string shear = fault_shear("${files}"), again = "run 1000\nwrite_restart kept.state\n",
+                    both = "catalogue kept.csv series kept.pe";
+  const std::string first = replaced(fault_read() + shear, "overwrite yes ", "") + again,
+                    restarted = replaced(fault_restart("kept.state") + "timestep 0.03\n" + shear,
+                                         "overwrite yes ", "") +
+                                again;
   for (int ranks : {1, 2}) {
     for (const char *file : {"kept.csv", "kept.pe"}) std::filesystem::remove(path(file));
-    ran(shear, {{"files", both}}, ranks);
+    ran(first, {{"files", both}}, ranks);
     const std::string catalogue = read_file(path("kept.csv")), series = read_file(path("kept.pe"));
     ASSERT_GT(series.size(), 10000u);
-    std::filesystem::copy_file(path("kept.state"), path("first.state"),
-                               std::filesystem::copy_options::overwrite_existing);
-    const auto unchanged = [&] {
-      return read_file(path("kept.csv")) == catalogue && read_file(path("kept.pe")) == series &&
-             !std::filesystem::exists(path("new.csv")) &&
-             !std::filesystem::exists(path("new.pe")) &&
-             !std::filesystem::exists(path("kept.csv.new"));
+    const auto kept = [&](const std::string &script, const std::string &files,
+                          const std::vector<std::string> &parts) {
+      refused(parts, script, {{"files", files}}, ranks);
+      EXPECT_EQ(read_file(path("kept.csv")), catalogue);
+      EXPECT_EQ(read_file(path("kept.pe")), series);
+      for (const char *file : {"new.csv", "kept.csv.new"})
+        EXPECT_FALSE(std::filesystem::exists(path(file))) << file;
     };
-    const std::vector<std::pair<std::string, std::string>> in_the_way = {
-        {"catalogue new.csv series kept.pe", "kept.pe"},
-        {"catalogue kept.csv series new.pe", "kept.csv"},
-        {both + " overwrite no", "kept.csv"}};
-    for (const auto &[files, name] : in_the_way) {
-      if (ranks == 2 && name == "kept.pe") continue;
-      refused({name, "exists", "overwrite yes"}, shear, {{"files", files}}, ranks);
-      EXPECT_TRUE(unchanged()) << files;
-      // The same holds for a run from a restart file without `resume yes`.
-      refused({name, "exists", "resume yes"}, again, {{"files", files}}, ranks);
-      EXPECT_TRUE(unchanged()) << files;
-    }
-    refused({"no/folder/s.pe"}, shear, {{"files", "catalogue new.csv series no/folder/s.pe"}},
-            ranks);
-    EXPECT_TRUE(unchanged());
-    // With `overwrite yes` it is.
-    ran(shear, {{"files", both + " overwrite yes"}}, ranks);
-    EXPECT_TRUE(unchanged());
-    ran(again, {{"files", both + " overwrite yes"}}, ranks);
-    EXPECT_FALSE(read_file(path("kept.pe")) == series);
+    kept(first, "catalogue new.csv series kept.pe", {"kept.pe", "exists", "overwrite yes"});
+    // The same holds for a run from a restart file without `resume yes`.
+    kept(restarted, both, {"kept.csv", "exists", "resume yes"});
+    kept(first, "catalogue new.csv series no/folder/s.pe", {"no/folder/s.pe"});
+    ran(restarted, {{"files", both + " overwrite yes"}}, ranks);
+    EXPECT_NE(read_file(path("kept.pe")), series);
   }
 }

@@ -231,27 +231,6 @@ thermo_modify     norm no lost error format float %.17g
 
 }  // namespace
 
-TEST_F(Extremes, TenThousandPeriods) {
-  // Two linked discs drift through the period of 10, most of the time on different sides of the
-  // border.
-  const Result r =
-      ran(single_discs("create_atoms 1 single 9.2 0 0\ncreate_atoms 1 single 1.15 0.35 0\n"
-                       "create_bonds single/bond 1 1 2\n") +
-          "velocity all set 2.0 0 0\nthermo 20000\nrun 1000000\n");
-  EXPECT_NEAR(r.last("v_px"), 4.0, 1e-9);
-  EXPECT_NEAR(r.last("v_py"), 0.0, 1e-9);
-  EXPECT_EQ(r.last("v_links"), 1.0);
-  const double start = r.thermo.front().at("c_events[5]") + r.thermo.front().at("KinEng");
-  double most = 0.0;
-  for (const auto &row : r.thermo)
-    most = std::max(most, std::fabs(row.at("c_events[5]") + row.at("KinEng") - start));
-  // For a spring integrated by velocity Verlet, energy oscillates by (w dt)^2 / 4, w^2 = 2.
-  EXPECT_LT(most, 1.3e-3 * r.thermo.front().at("c_events[5]") + 1e-9);
-  outcome("10000 periods across the boundary", "right; momentum to " +
-                                                   brief(std::fabs(r.last("v_px") - 4.0)) +
-                                                   "; energy to " + brief(most));
-}
-
 TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
   // Two discs of mass 1, k = kt = 1: the limit is the square root of 2 once they touch.
   const auto discs = [](const char *distance) {
@@ -289,23 +268,6 @@ TEST_F(Extremes, NearlyCoincidentDiscs) {
             "right; ledger to " + brief(ledger_error(r)) + "; kinetic energy at the end " +
                 brief(r.last("KinEng")));
   }
-}
-
-TEST_F(Extremes, OneDiscAndNoContacts) {
-  const Result one = ran(single_discs("create_atoms 1 single 5 0 0\n") +
-                         "velocity all set 0.5 0 0\nthermo 100\nrun 2000\n");
-  EXPECT_NEAR(one.last("v_px"), 0.5, 1e-15);
-  EXPECT_EQ(one.last("c_events[5]"), 0.0);
-  EXPECT_EQ(unit::read_catalogue(path("single.csv")).events.size(), 0u);
-  outcome("one disc", "right; no energy and no event");
-
-  const Result apart =
-      ran(single_discs("create_atoms 1 single 2 0 0\ncreate_atoms 1 single 7 0 0\n") +
-          "thermo 100\nrun 2000\n");
-  EXPECT_EQ(apart.last("c_events[5]"), 0.0);
-  EXPECT_EQ(apart.last("KinEng"), 0.0);
-  EXPECT_EQ(unit::read_catalogue(path("single.csv")).events.size(), 0u);
-  outcome("no contacts at all", "right; no energy and no event");
 }
 
 TEST_F(Reproducible, LinksAreSummedInTheOrderOfTheirNumbers) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Leaps between events: model time, unchanged results without leaps, restart, ranks, refusals.
 #include <cmath>
-#include <set>
-#include <sstream>
 
 #include "fault_scene.h"
 #include "files/pe_series.h"
@@ -161,54 +159,6 @@ TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
     EXPECT_GE(row.at("f_leap[1]"), std::min(99.9, 0.98 * (1 + (row.at("f_leap") - began) / 50)));
   }
   EXPECT_NEAR(r.last("f_leap[1]"), 100.0, 1e-9);
-}
-
-// Of links that are near breaking, the same ones break, at the same displacement of the plates.
-// Only the first ones are compared: each link that breaks radiates waves, and which links break in
-// such an avalanche depends on the last digit. Because of the high viscosity the load decides.
-TEST_F(Leap, TheSameLinksBreak) {
-  std::string scene = slow("LEAP", "bonds f_plates[8]");
-  scene = replaced(scene, "bond_coeff        1 1.0", "bond_coeff 1 1.0 1.012");
-  scene = replaced(scene, "pair_coeff        3 4", "pair_coeff * *");
-  scene += R"(
-variable          moved equal f_plates[8]
-fix               enough all halt 1 v_moved > 0.2 error continue message no
-run               40000
-unfix             enough
-compute           left all property/local batom1 batom2
-dump              left all local 1 ${prefix}.links c_left[1] c_left[2]
-run               0
-)";
-  const auto left = [&](const std::string &name, const std::string &leap, double &before) {
-    // Waves from links that break at the start decay first; then both runs start from the same
-    // state.
-    const Result r = ran(replaced(scene, "LEAP", "run 6000\n" + leap), {{"prefix", name},
-                                                                        {"dt", "0.05"},
-                                                                        {"mus", "100"},
-                                                                        {"velocity", "0.00005"},
-                                                                        {"viscosity", "0.2"}});
-    EXPECT_NEAR(r.last("f_plates[8]"), 0.2, 1e-4);
-    for (const auto &row : r.thermo)
-      if (row.count("Bonds") > 0 && row.at("Step") == 6000.0) before = row.at("Bonds");
-    std::istringstream in(read_file(path(name + ".links")));
-    std::set<std::pair<long, long>> all;
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream words(line);
-      long a, b;
-      if (words >> a >> b && !(words >> line)) all.insert(std::minmax(a, b));
-    }
-    EXPECT_EQ(static_cast<double>(all.size()), r.last("Bonds"));
-    return all;
-  };
-  double before = NAN;
-  const auto slowly = left("slowly", "", before);
-  EXPECT_GE(before - static_cast<double>(slowly.size()), 8.0);  // enough to compare
-  for (const char *fast : {"0.0001", "0.0002"}) {
-    const auto leapt =
-        left("leapt", std::string("fix leap all lsm/leap plates calm 3 ramp 6 fast ") + fast + "\n",
-             before);
-    EXPECT_EQ(leapt, slowly) << fast;
-  }
 }
 
 TEST_F(Leap, RestartAndRanks) {

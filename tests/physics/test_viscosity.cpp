@@ -141,61 +141,6 @@ TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
 
 namespace {
 
-/// Waves in a periodic lattice of discs with diameter 2; `velocity` defines wave and polarisation.
-std::string wave(const std::string &velocity, const std::string &dimension_2 = "2") {
-  return "units lj\ndimension " + dimension_2 +
-         "\nboundary p p p\natom_style hybrid bond sphere\natom_modify map array\n"
-         "comm_modify mode single cutoff 4\nspecial_bonds lj/coul 0 1 1\n"
-         "lattice hex $(1/(2*sqrt(3)):%.17g)\nregion box block 0 16 0 4 -0.1 0.1\n"
-         "create_box 1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 6\n"
-         "create_atoms 1 box\nset type 1 diameter 2.0\nset type 1 mass 1.0\n"
-         "bond_style lsm/linked\nbond_coeff 1 1.0 ${retardation}\npair_style zero 2.2\n"
-         "pair_coeff * *\ncreate_bonds many all all 1 1.99 2.01\n" +
-         velocity +
-         "timestep 0.01\nfix move all lsm/nve\nthermo_style custom step ke\n"
-         "thermo_modify norm no format float %.17g\nthermo 1\n";
-}
-
-}  // namespace
-
-TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
-  // A standing wave along the rows is one mode of the lattice, with Q = 1 / (frequency * time).
-  struct Wave {
-    const char *velocity;
-    double waves;  // in the period of 16 discs, 32 long
-    double w2;     // of the lattice: k / m = 1, links along x and at 60 degrees
-  };
-  const auto along = [](double n) {  // longitudinal
-    const double q = 2.0 * std::acos(-1.0) * n / 32.0;
-    return 4.0 * std::pow(std::sin(q), 2) + 2.0 * std::pow(std::sin(0.5 * q), 2);
-  };
-  const auto across = [](double n) {
-    const double q = 2.0 * std::acos(-1.0) * n / 32.0;
-    return 6.0 * std::pow(std::sin(0.5 * q), 2);
-  };
-  for (const double n : {1.0, 2.0, 4.0})
-    for (const bool longitudinal : {true, false}) {
-      const double w2 = longitudinal ? along(n) : across(n), time = 0.1;
-      const std::string pattern = "variable u atom 1e-7*sin(2*PI*" + text(n) + "*x/32)\n";
-      const std::string velocity =
-          pattern + (longitudinal ? "velocity all set v_u 0 0\n" : "velocity all set 0 v_u 0\n");
-      // The kinetic energy is taken after whole periods of the damped oscillation.
-      const double half = 0.5 * w2 * time, turn = std::sqrt(w2 - half * half);
-      const int periods = 3;
-      const double t = periods * 2.0 * std::acos(-1.0) / turn;
-      const int steps = static_cast<int>(std::lround(t / 0.01));
-      const Result r = ran(wave(velocity) + "run " + std::to_string(steps) + "\n",
-                           {{"retardation", "kelvin-voigt 0.1"}});
-      const double begin = r.thermo.front().at("KinEng");
-      // After whole periods the phase is the same, so that only the decay is left.
-      const double left = std::log(begin / r.last("KinEng"));
-      const double q = turn * t / left, expected = turn / (2.0 * half);
-      EXPECT_NEAR(q, expected, 0.01 * expected);
-    }
-}
-
-namespace {
-
 /// A fault whose links and contacts have dashpots.
 std::string fault(const std::string &begin = lattice_of_41) {
   return lattice_fault(begin, "f f p", " kelvin-voigt 0.1", " 1.5 kelvin-voigt 0.2",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Slip of a plane: sums over its faces and contacts, ruptures as connected cells, slip histories.
+// Slip of a plane: sums over its faces and contacts, ruptures as connected cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "crack.h"
+#include "events/slip_recorder.h"
 #include "numerics/random.h"
 #include "slow_ruptures.h"
 #include "some_ruptures.h"
-#include "unit_files.h"
 
 namespace {
 
@@ -26,8 +25,6 @@ using LSM::FaultRupture;
 using LSM::PlaneRupture;
 using LSM::RuptureFinder;
 using LSM::RuptureSettings;
-using unit::contains;
-using unit::message_of;
 using unit::some_settings;
 
 FaultGrid some_plane(int bins, int rows, bool ring = true, bool ring_dip = false) {
@@ -268,93 +265,6 @@ TEST(Plane, RandomPatternsAgreeWithASearch) {
           }
   EXPECT_GT(several, 50u);
   EXPECT_GT(holes, 50u);
-}
-
-class PlaneFiles : public unit::Files {
- protected:
-  std::string file() const { return path("slip.bin"); }
-  std::vector<LSM::SlipRecord> read() const {
-    LSM::SlipHistoryReader reader(LSM::files::open_plain(file()));
-    std::vector<LSM::SlipRecord> records;
-    for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
-    return records;
-  }
-};
-
-// Errors of area and moment are of the cells at the rim, and fall with the size of the cells.
-TEST_F(PlaneFiles, AnEllipticCrack) {
-  for (const double cell : {0.5, 0.25}) {
-    const unit::Crack crack(cell);
-    const std::vector<PlaneRupture> events = crack.record(file());
-    ASSERT_EQ(events.size(), 1u);
-    const PlaneRupture &e = events[0];
-    EXPECT_NEAR(e.rupture_area, crack.area(), 0.04 * cell * crack.area());
-    int reached = 0;
-    for (int k = 0; k < crack.grid.cells(); ++k) reached += crack.reached(k) < crack.until;
-    EXPECT_DOUBLE_EQ(e.rupture_area, reached * crack.grid.area());
-    EXPECT_NEAR(e.slip_moment, crack.moment(), 0.02 * cell * crack.moment());
-    EXPECT_NEAR(e.moment_strike, 0.8 * e.slip_moment, 1e-6 * e.slip_moment);
-    EXPECT_NEAR(e.moment_dip, -0.6 * e.slip_moment, 1e-6 * e.slip_moment);
-    EXPECT_NEAR(e.rupture_length, 2.0 * crack.speed * crack.until, 2.0 * cell);
-    EXPECT_NEAR(e.rupture_width, 2.0 * crack.speed_dip * crack.until, 2.0 * cell);
-    EXPECT_DOUBLE_EQ(e.x_hypocentre, crack.x);
-    EXPECT_DOUBLE_EQ(e.z_hypocentre, crack.z);
-    EXPECT_NEAR(e.x_centroid, crack.x, 1e-5);
-    EXPECT_NEAR(e.z_centroid, crack.z, 1e-5);
-    EXPECT_EQ(e.t_start, 7.0);
-    EXPECT_NEAR(e.t_end, 7.0 + crack.until, 1e-9);
-    EXPECT_NEAR(e.peak_slip, crack.rate * crack.until, 1e-5);
-    EXPECT_NEAR(e.stress_drop, crack.drop, 1e-6);
-    EXPECT_NEAR(e.size, crack.drop * crack.moment() / crack.modulus, 0.02 * cell * e.size);
-    EXPECT_GT(e.peak_slip_rate, crack.rate);
-
-    // All of the slip is in its history.
-    const std::vector<LSM::SlipRecord> records = read();
-    double strike = 0.0, dip = 0.0;
-    for (const LSM::SlipRecord &record : records)
-      for (std::size_t k = 0; k < record.row.work.size(); ++k) {
-        strike += static_cast<double>(record.row.slip[2 * k]);
-        dip += static_cast<double>(record.row.slip[2 * k + 1]);
-      }
-    EXPECT_NEAR(crack.modulus * strike * crack.grid.area(), e.moment_strike, 1e-4 * e.slip_moment);
-    EXPECT_NEAR(crack.modulus * dip * crack.grid.area(), e.moment_dip, 1e-4 * e.slip_moment);
-  }
-}
-
-TEST_F(PlaneFiles, HistoriesAreOfVersion2) {
-  const unit::Crack crack(1.0);
-  crack.record(file());
-  const std::string bytes = unit::slurp(file());
-  EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
-  EXPECT_TRUE(contains(
-      bytes, "# bins_dip = 20\n# z0 = -16.5\n# bin_dip = 1\n# ends_dip = open\n# ends = open\n"));
-  LSM::SlipHistoryReader reader(LSM::files::open_plain(file()));
-  const FaultGrid &grid = reader.info().grid;
-  EXPECT_TRUE(grid.plane);
-  EXPECT_FALSE(grid.ring || grid.ring_dip);
-  EXPECT_EQ(grid.cells(), 800);
-  EXPECT_EQ(grid.rows, 20);
-  EXPECT_EQ(grid.z0, crack.grid.z0);
-  EXPECT_EQ(grid.height, 1.0);
-  const std::int64_t record = 24 + 4 * 5 * 800;
-  EXPECT_EQ(reader.info().record_bytes(), record);
-  LSM::SlipRecord first;
-  ASSERT_TRUE(reader.next(first));
-  EXPECT_EQ(first.row.stress, crack.row(0).stress);
-  ASSERT_TRUE(reader.next(first));
-  EXPECT_EQ(first.row.slip, crack.row(1).slip);
-  EXPECT_EQ(first.row.work, crack.row(1).work);
-
-  const auto expect = [&](const std::string &from, const std::string &to, const std::string &part) {
-    std::string changed = bytes;
-    changed.replace(changed.find(from), from.size(), to);
-    unit::spill(file(), changed);
-    EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { read(); }), part)) << part;
-  };
-  expect("# bins_dip = 20", "# bins_dip = 00", "bins_dip is 0, expected 1 to 26214 with 40 bins");
-  expect("# bin_dip = 1", "# bin_dip = 0", "bin_dip is 0, expected a positive number");
-  expect("# z0 = -16.5", "# zo = -16.5", "parameter 'z0' is missing in the header");
-  expect("hist-2", "hist-3", "another version, expected version 1 to 2");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "files/slip_history.h"
@@ -134,6 +135,50 @@ TEST_F(SlipHistory, FormatToTheByte) {
   bytes +=
       std::string("\0\0\0\0\0\0\xf0\x3f", 8) + std::string(8, '\0') + std::string("\0\0\0\x3f", 4);
   EXPECT_EQ(slurp(file()), bytes);
+}
+
+TEST_F(SlipHistory, ThoseOfAPlaneAreOfVersion2) {
+  SlipHistoryInfo info = some_info();
+  info.grid.plane = true;
+  info.grid.rows = 2;
+  info.grid.z0 = -3.0;
+  info.grid.height = 1.5;
+  info.parameters = {{"ends_dip", "open"}, {"ends", "open"}};
+  FaultRow row(info.grid);
+  for (std::size_t n = 0; n < row.slip.size(); ++n) row.slip[n] = static_cast<float>(n);
+  row.work[4] = 0.5F;
+  SlipHistoryWriter writer;
+  writer.create(file(), info, 100, 1.5, row.slip);
+  writer.add(110, 1.0, row, true);
+  writer.close();
+  const std::string bytes = slurp(file());
+  EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
+  EXPECT_TRUE(unit::contains(
+      bytes, "# bins_dip = 2\n# z0 = -3\n# bin_dip = 1.5\n# ends_dip = open\n# ends = open\n"));
+  const SlipHistoryReader reader(LSM::files::open_plain(file()));
+  const LSM::FaultGrid &grid = reader.info().grid;
+  EXPECT_TRUE(grid.plane);
+  EXPECT_FALSE(grid.ring || grid.ring_dip);
+  EXPECT_EQ(grid.cells(), 6);
+  EXPECT_EQ(grid.z0, -3.0);
+  EXPECT_EQ(grid.height, 1.5);
+  EXPECT_EQ(reader.info().record_bytes(), 24 + 4 * 5 * 6);
+  const std::vector<SlipRecord> records = read(file());
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_EQ(records[0].row.stress, row.slip);
+  EXPECT_EQ(records[1].row.slip, row.slip);
+  EXPECT_EQ(records[1].row.work, row.work);
+
+  for (const auto &[from, to, part] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"# bins_dip = 2", "# bins_dip = 0", "bins_dip is 0, expected 1 to 349525 with 3 bins"},
+           {"# bin_dip = 1.5", "# bin_dip = 0.0", "bin_dip is 0, expected a positive number"},
+           {"# z0 = -3", "# zo = -3", "parameter 'z0' is missing in the header"},
+           {"hist-2", "hist-3", "another version, expected version 1 to 2"}}) {
+    std::string changed = bytes;
+    spill(file(), changed.replace(changed.find(from), from.size(), to));
+    expect_error<FileError>([&] { read(file()); }, part);
+  }
 }
 
 TEST_F(SlipHistory, ResumedEqualsUninterrupted) {
