@@ -211,11 +211,6 @@ class Lmp : public ::testing::Test {
   }
 };
 
-inline ::testing::AssertionResult succeeded(const Result &result) {
-  if (result.exit_code == 0) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n" << result.output;
-}
-
 /// Whether the run failed with exactly one error line, which contains all the given parts.
 inline ::testing::AssertionResult failed_with(const Result &result,
                                               const std::vector<std::string> &parts) {

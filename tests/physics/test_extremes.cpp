@@ -176,7 +176,7 @@ TEST_F(Extremes, RefusedOrStopped) {
 // LSM_REST_STEPS: number of steps, 1e8 in the accuracy report.
 TEST_F(Extremes, LongRestDoesNotDrift) {
   const char *asked = std::getenv("LSM_REST_STEPS");
-  const std::string steps = asked ? asked : "400000";
+  const std::string steps = asked ? asked : "100000";
   const std::string samples = std::to_string(std::stoll(steps) / 4000);
   const Result r = ran(small_fault(), {{"velocity", "0"},
                                        {"viscosity", "0"},
