@@ -43,6 +43,17 @@ inline const char *const disc_columns =
     "c_events[9] c_events[11] c_events[13] c_events[14]\n"
     "thermo_modify norm no format float %.17g\n";
 
+/// Links, free contacts of stiffness 1, and motion.
+/// \param bonds  commands that create links, and coefficients of links
+inline std::string linked(const std::string &bonds, const std::string &coefficients,
+                          const std::string &dt) {
+  return bonds + "bond_style lsm/linked\n" + coefficients +
+         "pair_style lsm/free\npair_coeff 1 1 1.0\ntimestep " + dt + "\nfix move all lsm/nve\n";
+}
+
+inline const std::string recorded_discs =
+    std::string("compute events all lsm/events ledger yes strainlimit 10\n") + disc_columns;
+
 /// A chain of discs along x whose links are of type 1 and 2 in turn, and whose last disc is pulled.
 inline std::string two_link_types(int count) {
   std::vector<std::pair<std::string, std::string>> centres;
@@ -51,19 +62,9 @@ inline std::string two_link_types(int count) {
   for (int n = 1; n < count; ++n)
     text += "create_bonds single/bond " + std::to_string(n % 2 ? 1 : 2) + " " + std::to_string(n) +
             " " + std::to_string(n + 1) + "\n";
-  return text + R"(
-variable          ratio index 1.02
-bond_style        lsm/linked
-bond_coeff        1 1.0
-bond_coeff        2 1.0 ${ratio}
-pair_style        lsm/free
-pair_coeff        1 1 1.0
-timestep          0.02
-group             last id )" +
-         std::to_string(count) + R"(
-fix               move all lsm/nve
-compute           events all lsm/events ledger yes strainlimit 10
-)" + disc_columns;
+  return "variable ratio index 1.02\n" +
+         linked(text, "bond_coeff 1 1.0\nbond_coeff 2 1.0 ${ratio}\n", "0.02") + "group last id " +
+         std::to_string(count) + "\n" + recorded_discs;
 }
 
 inline const std::string lattice_of_41 =

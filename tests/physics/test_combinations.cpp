@@ -220,15 +220,8 @@ fix               move all lsm/nve
 
 /// Two linked discs that overlap by 0.1 and between which a contact is possible as well.
 std::string linked_pair() {
-  return discs({{"0", "0"}, {"1.9", "0"}}) + R"(
-create_bonds      single/bond 1 1 2
-bond_style        lsm/linked
-bond_coeff        1 1.0
-pair_style        lsm/free
-pair_coeff        1 1 1.0
-timestep          0.01
-fix               move all lsm/nve
-)";
+  return discs({{"0", "0"}, {"1.9", "0"}}) +
+         linked("create_bonds single/bond 1 1 2\n", "bond_coeff 1 1.0\n", "0.01");
 }
 
 TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
@@ -303,17 +296,10 @@ TEST_F(Refused, MinimizeWithFriction) {
 TEST_F(Refused, LinksHoldWhileEnergyIsMinimized) {
   // A trial step of the line search beyond the breaking distance breaks nothing; a link that is too
   // long at the end breaks then.
-  const std::string scene = discs({{"0", "0"}, {"2.1", "0"}}) + R"(
-create_bonds      single/bond 1 1 2
-bond_style        lsm/linked
-bond_coeff        1 1.0 1.02
-pair_style        lsm/free
-pair_coeff        1 1 1.0
-timestep          0.1
-fix               move all lsm/nve
-thermo_style      custom step bonds pe
-thermo_modify     norm no format float %.17g
-)";
+  const std::string scene =
+      discs({{"0", "0"}, {"2.1", "0"}}) +
+      linked("create_bonds single/bond 1 1 2\n", "bond_coeff 1 1.0 1.02\n", "0.1") +
+      "thermo_style custom step bonds pe\nthermo_modify norm no format float %.17g\n";
   const Result r = ran(scene + "minimize 0 1e-12 100 1000\nrun 5\n");
   EXPECT_NEAR(r.thermo.front().at("PotEng"), 0.005, 1e-15);
   EXPECT_LT(r.last("PotEng"), 1e-15);
