@@ -31,7 +31,7 @@ from pathlib import Path
 
 from variables import declared
 
-STOPPED = 75
+STOPPED, LOCKED = 75, ("flock", "-n", "-s", "-F", "lock")
 INPUTS = Path(__file__).resolve().parent
 EXPORTS = re.findall(r"^export (.*)$", (INPUTS / "mpi-settings.sh").read_text(), re.M)
 MPI = dict(word.split("=", 1) for line in EXPORTS for word in line.split())
@@ -92,10 +92,10 @@ class Job:
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.ranks, self.checkpoint, self.binaries, self.settings = folder, ranks, checkpoint, binaries, settings
 
-    def words_of_lmp(self, scene, log, *pairs):
+    def lmp(self, scene, log, *pairs):
         """A scene on so many ranks; the file `lock` stays locked as long as they run."""
-        words = ["mpirun", "-np", self.ranks, "flock", "-n", "-s", "-F", "lock", f"{self.binaries}/lmp", "-in", f"{INPUTS}/{scene}.in", "-log", log]
-        return words + [word for pair in (*pairs, *self.settings) for word in ("-var", *pair.split("=", 1))]
+        variables = [word for pair in (*pairs, *self.settings) for word in ("-var", *pair.split("=", 1))]
+        return ["mpirun", "-np", self.ranks, *LOCKED, f"{self.binaries}/lmp", "-in", f"{INPUTS}/{scene}.in", "-log", log, *variables]
 
     def stop(self, child):
         child.terminate()
@@ -123,7 +123,7 @@ class Fault(Job):
         # The newest complete restart file; lmp checks that it is intact and of the same run.
         steps = [int(info.name.split(".")[2]) for info in self.folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
         begin = f"restart=fault.restart.{max(steps)}" if steps else "overwrite=yes"
-        return self.words_of_lmp("fault", "none", begin, "prefix=fault", f"checkpoint={self.checkpoint}")
+        return self.lmp("fault", "none", begin, "prefix=fault", f"checkpoint={self.checkpoint}")
 
     def stop(self, _):
         # fault.in looks for this file after each restart file.
@@ -153,7 +153,7 @@ class Rupture(Job):
     def command(self):
         for name in ("cpu.txt", "rupture.log"):  # it starts over
             (self.folder / name).unlink(missing_ok=True)
-        return self.words_of_lmp(self.scene, "rupture.log", "prefix=rupture", "overwrite=yes")
+        return self.lmp(self.scene, "rupture.log", "prefix=rupture", "overwrite=yes")
 
     def steps(self):
         log = self.folder / "rupture.log"
@@ -184,8 +184,8 @@ class Slider(Job):
         if resumed and not (self.folder / self.catalogue).exists():
             raise Failed(f"{self.folder}/{self.catalogue} is missing, but there is a checkpoint; move the folder away to begin again")
         return [
-            "flock", "-n", "-s", "-F", "lock", f"{self.binaries}/slider_cli", *words, "--catalogue", self.catalogue, "--checkpoint", "checkpoint.bin",
-            "--json", "summary.json", "--progress", "--resume" if resumed else "--overwrite"
+            *LOCKED, f"{self.binaries}/slider_cli", *words, "--catalogue", self.catalogue, "--checkpoint", "checkpoint.bin", "--json", "summary.json",
+            "--progress", "--resume" if resumed else "--overwrite"
         ]
 
 
@@ -194,7 +194,7 @@ class Esys(Job):
     catalogue, OWN, known = "fault.catalogue.csv", Fault.OWN, Fault.known
 
     def command(self):
-        return ["flock", "-n", "-s", "-F", "lock", f"{INPUTS.parent}/tests/bench/esys_fault.sh", str(self.binaries), *self.settings]
+        return [*LOCKED, f"{INPUTS.parent}/tests/bench/esys_fault.sh", str(self.binaries), *self.settings]
 
 
 class Published(Job):
@@ -216,7 +216,7 @@ PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Publish
 def begun_otherwise(folder, settings):
     """Text for an error if a run with other settings, NAME=VALUE, was started in the folder; empty if not."""
     path = folder / "settings.txt"
-    if not any(True for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json") for _ in folder.glob(pattern)):
+    if not any(any(folder.glob(pattern)) for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json")):
         return ""
     had, wanted = (dict(pair.split("=", 1) for pair in pairs) for pairs in (path.read_text().splitlines() if path.exists() else [], settings))
     if had.get("program") == wanted["program"] == "catalogue":
@@ -225,16 +225,6 @@ def begun_otherwise(folder, settings):
     told, asked = (" ".join(f"{name}={pairs[name]}" if name in pairs else f"no {name}" for name in names) for pairs in (had, wanted))
     return "" if not names else (f"{folder} was begun with other settings ({told}), expected {asked}; "
                                  "move it away, or give the study another folder (LSM_OUTPUT)")
-
-
-def begin(folder, settings):
-    """Records the settings of the run, unless a run with other settings was started in the folder."""
-    otherwise = begun_otherwise(folder, settings)
-    if otherwise:
-        raise Failed(otherwise)
-    path, text = folder / "settings.txt", "\n".join(settings) + "\n"
-    if not path.exists() or path.read_text() != text:
-        replace(path, text)
 
 
 def seconds_left():
@@ -246,37 +236,26 @@ def work(job, folder):
     """Runs the program until it ends. Returns its exit status, whether it was asked to stop, and its output."""
     output = folder / "output.txt"
     said = output.stat().st_size if output.exists() else 0
-    # Each run has a session folder of its own: two mpirun that start at the same moment would interfere in a common one.
-    session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:12]}"
-    shutil.rmtree(session, ignore_errors=True)
-    session.mkdir(mode=0o700)
     told = []
-    with open(output, "ab") as file:
+    # Each run has a session folder of its own: two mpirun that start at the same moment would interfere in a common one.
+    with open(output, "ab") as file, tempfile.TemporaryDirectory(prefix="lsm-run-", ignore_cleanup_errors=True) as session:
         child = subprocess.Popen(job.command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
-                                 env={**os.environ, **MPI, "OMPI_MCA_orte_create_session_dirs": "1", "OMPI_MCA_orte_tmpdir_base": str(session)},
+                                 env={**os.environ, **MPI, "OMPI_MCA_orte_create_session_dirs": "1", "OMPI_MCA_orte_tmpdir_base": session},
                                  start_new_session=True, preexec_fn=lambda: die_with_parent(signal.SIGTERM))
 
-    def stop(number, _):
-        told.append(number)
-        if number in (signal.SIGTERM, signal.SIGALRM):
-            job.stop(child)
-        else:
-            child.terminate()
+        def stop(number, _):
+            told.append(number)
+            if number in (signal.SIGTERM, signal.SIGALRM):
+                job.stop(child)
+            else:
+                child.terminate()
 
-    for number in (signal.SIGTERM, signal.SIGALRM, signal.SIGINT, signal.SIGHUP):
-        signal.signal(number, stop)
-    if seconds_left() < 1e9:
-        signal.setitimer(signal.ITIMER_REAL, max(0.001, seconds_left()))
-    code = child.wait()
-    shutil.rmtree(session, ignore_errors=True)
+        for number in (signal.SIGTERM, signal.SIGALRM, signal.SIGINT, signal.SIGHUP):
+            signal.signal(number, stop)
+        if seconds_left() < 1e9:
+            signal.setitimer(signal.ITIMER_REAL, max(0.001, seconds_left()))
+        code = child.wait()
     return code, bool(told), output.read_bytes()[said:].decode(errors="replace")
-
-
-def count_cpu(folder):
-    """Adds the CPU time of this part of the run to that of earlier parts; that of a killed part is lost."""
-    path = folder / "cpu.txt"
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    replace(path, f"{(float(path.read_text()) if path.exists() else 0.0) + used.ru_utime + used.ru_stime:.2f}\n")
 
 
 def run(folder, kind, ranks, checkpoint, binaries, *settings):
@@ -285,14 +264,19 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
         raise Failed(f"program {kind!r}, expected {' or '.join(PROGRAMS)}")
     folder.mkdir(parents=True, exist_ok=True)
     lock = alone_in(folder)
-    begin(folder, [f"program={kind}", *settings])
+    if otherwise := begun_otherwise(folder, [f"program={kind}", *settings]):
+        raise Failed(otherwise)
+    replace(folder / "settings.txt", "\n".join([f"program={kind}", *settings]) + "\n")
     job = PROGRAMS[kind](folder, ranks, checkpoint, Path(binaries).resolve(), list(settings))
     (folder / "fault.stop").unlink(missing_ok=True)
+    cpu = folder / "cpu.txt"
     if job.steps() is None:
         if seconds_left() < 0:
             return STOPPED
         code, told, said = work(job, folder)
-        count_cpu(folder)
+        # With the CPU time of earlier parts of the run; that of a killed part is lost.
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        replace(cpu, f"{(float(cpu.read_text()) if cpu.exists() else 0.0) + used.ru_utime + used.ru_stime:.2f}\n")
         if (code != 0 or job.steps() is None) and told:
             return STOPPED
         if code != 0:
@@ -304,11 +288,7 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
             print(f"run.py: {folder}: {why}", file=sys.stderr)
             replace(folder / "done.json", json.dumps({"failed": why}) + "\n")
             return 0
-    cpu = folder / "cpu.txt"
-    done = {
-        "steps": job.steps(), "events": events_in(folder / job.catalogue), "cpu_s": float(cpu.read_text()) if cpu.exists() else None,
-        "ranks": int(ranks)
-    }
+    done = dict(steps=job.steps(), events=events_in(folder / job.catalogue), cpu_s=float(cpu.read_text()) if cpu.exists() else None, ranks=int(ranks))
     if kind == "esys":
         done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits in a busy loop
     if kind == "catalogue":

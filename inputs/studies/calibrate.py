@@ -22,13 +22,20 @@ import re
 import subprocess
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+from scipy.stats import qmc
+
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(INPUTS), str(INPUTS.parent / "python")]
+import lsm  # noqa: E402
 from lsm import LOADING, summary  # noqa: E402
-from lsm.paper import RANGES, SLIDER_SETTINGS, STATEMENTS, STATEMENTS_BY_NAME, STEPS, WINDOWS, WORDED, completed, printed  # noqa: E402
+from lsm.paper import RANGES, SLIDER_SETTINGS, STATEMENTS, STATEMENTS_BY_NAME, STEPS, WINDOWS, completed, printed  # noqa: E402
+from lsm.slip import Friction, judged, recorded  # noqa: E402
+from lsm.statements import statements_of  # noqa: E402
 from lsm.tables import read, write_table  # noqa: E402
 from variables import defaults  # noqa: E402
 
@@ -116,10 +123,6 @@ def coordinates(row):
 # ---- collect
 
 
-def told(row, key):
-    return "" if row.get(key) is None else f"{row[key]:.6g}"
-
-
 def loaded(time, pe):
     """Time from which a run counts: when its PE first reaches its mean of the last quarter of the time, and not before LOADING.
 
@@ -129,10 +132,6 @@ def loaded(time, pe):
 
 
 def numbers_of_point(postproc, folder, memory, work):
-    import numpy as np
-    import lsm
-    from lsm.slip import Friction, judged, recorded
-    from lsm.statements import statements_of
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
@@ -146,10 +145,9 @@ def numbers_of_point(postproc, folder, memory, work):
     numbers = {"begin": f"{begin:.6g}"} | fitted(RANGES, WINDOWS, shortest=0)
     squares, longer = fitted(shortest=0, method="least-squares"), fitted()
     try:
-        values = {row["number"]: row["value"] for row in statements_of(postproc, picked, begin, folder / "fault.catalogue.csv")}
+        numbers |= {key: summary.told(value) for key, value in statements_of(postproc, picked, begin, folder).items()}
     except ValueError:  # too few events or velocities: these statements have no number
-        values = {}
-    numbers |= {key: told(values, name) for key, name in WORDED.items()}
+        pass
     numbers |= {"gamma_squares": squares["gamma_0.0001"], "gamma_longer": longer["gamma_0.0001"]}
     events, history = lsm.read_catalogue(picked), Friction(folder / "fault.slip.bin")
     events = recorded(events, history, begin)
@@ -212,15 +210,11 @@ class Surrogate:
     """Each number of the statements over the coordinates, with its error where it was not run."""
 
     def __init__(self, rows, statements):
-        import warnings
-
-        import numpy as np
-        from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
         from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
         from threadpoolctl import threadpool_limits
         threadpool_limits(1)  # threads that wait for each other beside running simulations take many times as long
-        warnings.simplefilter("ignore", ConvergenceWarning)
+        warnings.filterwarnings("ignore", module="sklearn")  # of convergence
         self.statements, self.fits, self.left_out = statements, {}, {}
         at = np.array([coordinates(row) for row in rows])
         names = sorted({row["point"] for row in rows})
@@ -248,7 +242,6 @@ class Surrogate:
 
 def likelihood(predicted, statements):
     """Logarithm of the likelihood of the numbers that are predicted at one length."""
-    import numpy as np
     log = 0.0
     for one in statements:
         (mean, error), (low, high) = predicted[one.name], one.interval()
@@ -259,7 +252,6 @@ def likelihood(predicted, statements):
 
 def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
     """(cube, memory, settings, predictions at the two lengths, logarithm of the likelihood) of samples of the prior, and the surrogate."""
-    import numpy as np
     statements, count = [one for one in statements if one.name != "waves"], count or SAMPLES
     surrogate, rng = Surrogate(rows, statements), np.random.default_rng(seed)
     cube = rng.random((count, len(UNPRINTED)))
@@ -280,8 +272,6 @@ def sampled(rows, seed, statements=STATEMENTS, count=None, wanted=None):
 
 
 def propose(output, length, count, points=None, names=None):
-    from scipy.stats import qmc
-    import numpy as np
     output, count = Path(output), int(count)
     lines = output.read_text().splitlines() if output.exists() else []
     wanted = names and [STATEMENTS_BY_NAME[name] for name in names.split(",")]
@@ -304,7 +294,6 @@ KEPT = 500  # samples of the posterior
 
 
 def posterior(path, out):
-    import numpy as np
     *_, found, log, surrogate = sampled(completed(path), 1, count=4 * SAMPLES)
     weight = np.exp(log - log.max())
     print(f"effective samples: {weight.sum()**2 / (weight**2).sum():.0f} of {len(weight)}", file=sys.stderr)

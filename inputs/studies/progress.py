@@ -1,12 +1,76 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Progress of the runs of a study: runs done, events so far, time left."""
+"""What a study says while it runs: runs done, events so far, time left; and at its end, which runs failed or are not done."""
+import datetime
+import os
 import re
+import signal
 import sys
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
+
+import yaml
 
 NEARLY = 0.9999  # a run is done if done.json says so
+
+
+def say(*lines):
+    print(*lines, sep="\n  ", file=sys.stderr, flush=True)
+
+
+def refuse(error):
+    """Ends with one line of error before anything is started."""
+    say(f"study.sh: {error}")
+    os._exit(1)
+
+
+def pass_on(number):
+    """Passes a signal to this process on to the runs, before Snakemake, which waits for their end, hears of it."""
+    before = signal.getsignal(number)
+
+    def handler(number, frame):
+        for children in Path("/proc/self/task").glob("*/children"):
+            for child in children.read_text().split():
+                os.kill(int(child), number)
+        before(number, frame)
+
+    signal.signal(number, handler)
+
+
+def not_done(study):
+    return [run for run in study.runs.values() if not Path(run.name, "done.json").exists()]
+
+
+def say_submissions(study, minutes):
+    """With -n, the commands by which the profile of a cluster would submit the runs."""
+    profile = os.environ.get("LSM_PROFILE")
+    command = yaml.safe_load(Path(profile).read_text()).get("cluster") if profile else None
+    if command and {"-n", "--dry-run", "--dryrun"} & set(sys.argv):
+        words = [dict(rule="simulation", wildcards=SimpleNamespace(run=run.name), threads=run.ranks,
+                      resources=SimpleNamespace(ranks=run.ranks, runtime=minutes)) for run in not_done(study) if run.program != "catalogue"]  # yapf: disable
+        say("What would be submitted for each run:", *(f"{one['wildcards'].run}: {command.format(**one)}" for one in words))
+
+
+def say_failures(study):
+    """Names the runs that failed. They are done, as a repetition would fail in the same way, but no result."""
+    failed = [f"{run.name}: {run.failed}" for run in study.runs.values() if run.failed]
+    if failed:
+        again = "left out of all results; with other settings, or its folder moved away, a run begins again"
+        say(f"study.sh: {len(failed)} of {len(study.runs)} runs failed and are {again}:", *failed)
+    return bool(failed)
+
+
+def say_results(study):
+    say(f"Results in {os.getcwd()}:", *study.results())
+    if say_failures(study):
+        os._exit(1)
+
+
+def say_rest(study):
+    say_failures(study)
+    if rest := not_done(study):
+        say(f"{len(rest)} of {len(study.runs)} runs are not done, start the study again to go on:", *(run.name for run in rest))
 
 
 class RunProgress:
@@ -30,52 +94,36 @@ class RunProgress:
             self.events, self.seen = 0, 0
         with open(path, "rb") as file:
             file.seek(self.seen)
-            lines = file.read().splitlines(keepends=True)
-        whole = [line for line in lines if line.endswith(b"\n")]
+            whole = [line for line in file.read().splitlines(keepends=True) if line.endswith(b"\n")]
         self.seen += sum(map(len, whole))
         self.events += sum(line[:1] not in (b"#", b"e") for line in whole)
         return self.events
 
     def share(self):
-        folder = Path(self.run.name)
+        folder, steps = Path(self.run.name), 0
         if (folder / "done.json").exists():
             return 1.0
-        steps = 0
         if self.run.program == "fault":
-            infos = [info for info in folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
-            if infos:
-                newest = max(infos, key=lambda info: int(info.name.split(".")[2])).read_text()
-                told = dict(line.split(" = ", 1) for line in newest.splitlines() if " = " in line)
-                steps = int(told["step"]) - int(told["settle"])
-        elif (folder / "output.txt").exists():
-            with open(folder / "output.txt", "rb") as file:
-                file.seek(max(0, (folder / "output.txt").stat().st_size - 2000))
+            infos = (dict(re.findall(r"^(step|settle) = (\d+)$", path.read_text(), re.M)) for path in folder.glob("fault.restart.*.info"))
+            steps = max((int(told["step"]) - int(told["settle"]) for told in infos), default=0)
+        elif (output := folder / "output.txt").exists():
+            with open(output, "rb") as file:
+                file.seek(max(0, output.stat().st_size - 2000))
                 told = re.findall(rb"step (\d+) of (\d+)", file.read())
-            if told:
-                steps, self.steps = map(int, told[-1])
+            steps, self.steps = map(int, told[-1]) if told else (0, self.steps)
         return min(NEARLY, steps / self.steps)
 
 
-def length_of_time(seconds):
-    for unit, name, least in ((86400, "days", 2), (3600, "h", 2), (60, "min", 2)):
-        if seconds >= least * unit:
-            return f"{seconds / unit:.1f} {name}"
-    return f"{seconds:.0f} s"
+def share_of_work(runs):
+    return sum(run.cost * run.share() for run in runs) / sum(run.cost for run in runs)
 
 
 def line_of(runs, begun, elapsed):
     """The progress line. begun: share of the work that was done at the start; elapsed: seconds since then."""
-    shares = [run.share() for run in runs]
-    share = share_of_work(runs, shares)
-    failed = sum(bool(run.run.failed) for run in runs)
-    done = f"{sum(share == 1.0 for share in shares) - failed} of {len(runs)} runs done" + (f", {failed} failed" if failed else "")
-    left = f", about {length_of_time(elapsed * (1 - share) / (share - begun))} left" if begun < share < 1 else ""
+    share, failed = share_of_work(runs), sum(bool(run.run.failed) for run in runs)
+    done = f"{sum(run.share() == 1.0 for run in runs) - failed} of {len(runs)} runs done" + (f", {failed} failed" if failed else "")
+    left = f", about {datetime.timedelta(seconds=round(elapsed * (1 - share) / (share - begun)))} left" if begun < share < 1 else ""
     return f"{done}, {sum(run.count_events() for run in runs)} events so far, {100 * share:.0f} % of the steps{left}"
-
-
-def share_of_work(runs, shares=None):
-    shares = shares or [run.share() for run in runs]
-    return sum(run.cost * share for run, share in zip(runs, shares)) / sum(run.cost for run in runs)
 
 
 def report_progress(study, minutes):
@@ -85,8 +133,8 @@ def report_progress(study, minutes):
 
     def tell():
         try:
-            print(line_of(runs, begun, time.monotonic() - start), file=sys.stderr, flush=True)
-        except (OSError, ValueError):
+            say(line_of(runs, begun, time.monotonic() - start))
+        except (OSError, ValueError, KeyError):
             pass  # a file is being replaced; it is read next time
 
     def go_on():
@@ -96,3 +144,11 @@ def report_progress(study, minutes):
 
     tell()  # not by the thread, which a study without anything to do would not wait for
     threading.Thread(target=go_on, daemon=True).start()
+
+
+def begin(study, minutes):
+    """Before the first run."""
+    pass_on(signal.SIGINT)
+    pass_on(signal.SIGTERM)
+    study.check_programs()
+    report_progress(study, minutes)

@@ -3,6 +3,7 @@
 import shlex
 
 from default import costs
+from recipes import joined
 from run import INPUTS
 
 REFERENCE = shlex.quote(str(INPUTS / "reference/tpv5.csv"))
@@ -21,5 +22,8 @@ def table(run, found):
                 rate=off.rate_l2, rate_low=off.rate_low_l2)
 
 
-def stacks(run, found):
-    return {"stations": [{key: one[key] for key in one if key != "run"} for one in found.beside.stations]}
+def _stations(study):
+    return joined(study, lambda found: [{key: one[key] for key in one if key != "run"} for one in found.beside.stations])
+
+
+tables = {"stations": _stations}

@@ -4,7 +4,7 @@ p: two-sample tests against the first run, times as displacements of the plates;
 time units of a main shock, per main shock; after_displacement, before_displacement: those later or earlier than that, up to a
 displacement of 0.04; same: how many of the events >= 1e-2 of the first run (of) are matched here within a displacement of 0.02 and
 a factor of 2 in size, and how many by chance."""
-from recipes import fit_command, ratio, times_command
+from recipes import fit_command, joined, ratio, times_command
 
 reference = "2.5e-4_no_leaps"
 drawings = ["slow-driving"]
@@ -50,5 +50,4 @@ def costs(run, found):
     return dict(cpu_s=cpu, cpu_s_per_large=ratio(cpu, found.count.sizes[2].events), model_time_per_cpu_s=ratio(last, cpu))
 
 
-def stacks(run, found):
-    return {"around": found.around.rates}
+tables = {"around": lambda study: joined(study, lambda found: found.around.rates)}

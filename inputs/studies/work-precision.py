@@ -2,7 +2,7 @@
 """exponent: sizes 1e-3 to 1; gamma: inter-event times of events >= 1e-3; p: two-sample tests against the same packing in the first
 line; bursts: events >= 1e-3 of at most 3 steps, a sign of an unstable time step. differences.csv: means over the packings; relative
 for rate, rate_2 and released."""
-from recipes import fit_command, log, ratio, times_command
+from recipes import fit_command, log, over_seeds, ratio, times_command
 
 reference = "0.03_0_located_{seed}"
 drawings = ["work-precision"]
@@ -35,13 +35,16 @@ def costs(run, found):
     return dict(cpu_s=found.done.cpu_s)
 
 
-def means(run, found):
+def _means(run, found):
     sizes, cpu = found.count.sizes, found.done.cpu_s
     return dict(time_per_core_hour=ratio(3600 * 72000 / run.shorten, cpu), large_per_core_hour=ratio(3600 * sizes[2].events, cpu),
                 bursts=sizes[1].brief)
 
 
-def differences(run, found):
+def _differences(run, found):
     sizes = found.count.sizes
     return dict(rate=log(sizes[1].events), rate_2=log(sizes[2].events), exponent=found.fit.fits[0].exponent, gamma=found.times.fits[0].gamma,
                 released=log(sizes[1].released))
+
+
+tables = {"differences": lambda study: over_seeds(study, _means, _differences)}

@@ -29,21 +29,6 @@ def memories(row):
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
 
-# What lsm.statements measures: {column: name of the number in its table}
-WORDED = {
-    "rise": "largest rise of the density, at all times",
-    "rise_slipping": "largest rise of the density, while something slips",
-    "recorded": "slip recorded over that of the plates",
-    "one_bin": "share of ruptures of one bin (from 5 plate velocities on)",
-    "slip_between": "share of the slip while no event is open",
-    "rate_within": "slip rate within events over that between them",
-    "rate_between": "slip rate between events over that of the plates",
-    "loading": "rise of PE between events over the work of the plates",
-    "roll_off_power": "power d of s^-a exp(-(s/c)^d)",
-    "roll_off_gain": "2 ln L of d = 1 over a power law without end",
-}
-
-
 class Statement(NamedTuple):
     """A number that has to be within an interval; its deviation is the distance to that in units of a tolerance."""
     name: str
