@@ -18,38 +18,18 @@ sys.path.insert(0, str(FOLDER.parent / "python"))
 import lsm  # noqa: E402
 from lsm.drawing import draw  # noqa: E402
 from lsm.history import History  # noqa: E402
-from lsm.tables import read  # noqa: E402
 from values import Value  # noqa: E402
 
 DATA, SEEDS = FOLDER / "fault_3d", (1, 2)
 LOWER = 1e-5, 3e-5, 1e-4, 3e-4  # beside LEAST, to see how much it decides
 LEAST = 1e-3  # moment from which magnitudes count: above that of the smallest patch
 PATCH = math.pi * 4**2  # area of the smallest patches
-NODES = 10  # smallest area of ruptures whose end is asked for
+NODES = 10  # smallest area of ruptures that are drawn as lines
 CIRCLE = 16 / 7 / math.pi**1.5  # moment of a circular crack over stress drop and area^1.5, for a Poisson ratio of 1/4
 
 
 def ruptures(seed):
     return lsm.read_catalogue(DATA / f"seed_{seed}.ruptures.csv.xz")
-
-
-def patch_of(seed, rows):
-    """Radius of the largest patch in which each rupture began, 0 if none."""
-    header, radius = rows.header, np.zeros(len(rows))
-    length, depth = float(header["length"]), float(header["depth"])
-    for row in read(DATA / "patches.csv"):
-        if int(row["seed"]) != seed:
-            continue
-        x, z, r = (float(row[key]) for key in ("x", "z", "radius"))
-        away = [(rows[key] - place + 0.5 * period) % period - 0.5 * period
-                for key, place, period in (("x_hypocentre", x, length), ("z_hypocentre", z, depth))]
-        radius = np.where(np.hypot(*away) <= r + 1, np.maximum(radius, r), radius)
-    return radius
-
-
-def stopped(seed, rows):
-    """Whether each rupture is no wider than the patch in which it began."""
-    return np.maximum(rows["rupture_length"], rows["rupture_width"]) <= 2 * patch_of(seed, rows) + 1
 
 
 def b_value(moment, least):
@@ -59,9 +39,8 @@ def b_value(moment, least):
 
 
 def all_values():
-    """Counts, b of magnitudes of moments, moment over that of a circular crack, and the share that stops within a patch."""
-    source = "fault_3d/seed_*.ruptures.csv.xz"
-    lower = []
+    """Counts, b of magnitudes of moments, and moment over that of a circular crack; half: those of patches of one size at half the spacing."""
+    source, lower = "fault_3d/seed_*.ruptures.csv.xz", []
     for seed in SEEDS:
         rows = ruptures(seed)
         moment, area = rows["slip_moment"], rows["rupture_area"]
@@ -69,29 +48,16 @@ def all_values():
         b, n = b_value(moment, LEAST)
         yield Value(f"plane.b.{seed}", b, b / math.sqrt(n), n=n, source=source)
         lower += [b_value(moment, least)[0] for least in LOWER]
-        some = area >= NODES
-        yield Value(f"plane.stopped.{seed}", stopped(seed, rows)[some].mean(), n=int(some.sum()), source=source)
-        yield Value(f"plane.whole.{seed}", int((area >= 0.5 * float(rows.header["length"]) * float(rows.header["depth"])).sum()), source=source)
         some = area >= PATCH
         over = moment[some] / (CIRCLE * rows["stress_drop"][some] * area[some]**1.5)
         yield Value(f"plane.crack.{seed}", np.median(over), n=int(some.sum()), source=source)
-        yield Value(f"plane.large.{seed}", int(some.sum()), source=source)
     yield Value("plane.b_lower.least", min(lower), n=len(lower), source=source)
     yield Value("plane.b_lower.most", max(lower), n=len(lower), source=source)
-    yield from half_spacing()
-
-
-def half_spacing():
-    """A smaller fault with patches of one size at half the spacing, over the same at the whole: moments and times between ruptures of the
-    smallest patch and more, and numbers of smaller ones."""
-    found, source = [], "fault_3d/spacing_*.ruptures.csv.xz"
-    for name in "half", "whole":
-        rows = lsm.read_catalogue(DATA / f"spacing_{name}.ruptures.csv.xz")
-        large = rows["rupture_area"] >= PATCH
-        found.append((np.median(rows["slip_moment"][large]), np.median(np.diff(rows["t_start"][large]))))
-        yield Value(f"plane.{name}.small", int((~large).sum()), n=len(rows), source=source)
-    for key, over, under in zip(("moment", "time"), *found):
-        yield Value(f"plane.half.{key}", 1 - over / under, source=source)
+    source = "fault_3d/spacing_*.ruptures.csv.xz"
+    half, whole = (lsm.read_catalogue(DATA / f"spacing_{name}.ruptures.csv.xz") for name in ("half", "whole"))
+    over, under = (np.median(rows["slip_moment"][rows["rupture_area"] >= PATCH]) for rows in (half, whole))
+    yield Value("plane.half.moment", 1 - over / under, source=source)
+    yield Value("plane.whole.small", int((whole["rupture_area"] < PATCH).sum()), n=len(whole), source=source)
 
 
 def write_event(history, number, path):

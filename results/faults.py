@@ -444,7 +444,6 @@ def spectrum_of(postproc, folder):
 
 BURSTS = FOLDER / "bursts.csv"
 STRETCH, SHORT = 250.0, 2.0  # time units: of the stretches, and period below which motion is that of single discs
-LINE = 6  # frequencies on each side of a line that belong to it, in a Hann window
 
 
 def bursts_of(postproc, folder):
@@ -458,12 +457,10 @@ def bursts_of(postproc, folder):
     for begin in range(first, len(series) - samples, samples):
         change = np.diff(series["pe"][begin:begin + samples + 1])
         power = np.abs(np.fft.rfft((change - change.mean()) * window))**2 * (frequency > 0)
-        line = int(np.argmax(power * short))
         start = float(series["time"][begin])
         number = np.sum((events["t_start"] >= start) & (events["t_start"] < start + STRETCH))
-        found.append((start, number * 1000 / STRETCH, power[short].sum() / power.sum(), power[line - LINE:line + LINE + 1].sum() / power[short].sum(),
-                      1 / frequency[line]))
-    start, rate, share, line, period = np.array(found).T
+        found.append((start, number * 1000 / STRETCH, power[short].sum() / power.sum()))
+    start, rate, share = np.array(found).T
     noisy = share > 0.5
     of = np.minimum((events["t_start"] - start[0]) // STRETCH, len(start) - 1).astype(int)
     quiet = ~noisy[of]
@@ -476,11 +473,8 @@ def bursts_of(postproc, folder):
         path.write_text("".join(line for line in lines if not line[0].isdigit() or int(line.split(",", 1)[0]) in kept))
         rows = summary.rows_of(postproc, [folder / "fault.catalogue.csv", path], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
     return dict(run=folder.name, fault=folder.name.split("_")[0], packing=catalogue.header["seed"], stretches=len(start), bursts=int(noisy.sum()),
-                one_line=int(np.sum(noisy & (line > 0.5))), share_median=np.median(share), share_largest=share.max(),
-                rate_in_bursts=np.mean(rate[noisy]) if noisy.any() else math.nan, rate_else=np.mean(rate[~noisy]), rate_largest=rate.max(),
-                period_largest=period[np.argmax(rate)], line_largest=line[np.argmax(rate)], gamma=rows[0]["gamma_0.0001"],
-                gamma_else=gamma_law.fit(times[calm], floc=0)[0], B_else=gamma_law.fit(times[calm], floc=0)[2], exponent=rows[0][f"exponent_{RANGE}"],
-                exponent_else=rows[1][f"exponent_{RANGE}"])
+                rate_in_bursts=np.mean(rate[noisy]) if noisy.any() else math.nan, rate_else=np.mean(rate[~noisy]), gamma=rows[0]["gamma_0.0001"],
+                gamma_else=gamma_law.fit(times[calm], floc=0)[0], exponent=rows[0][f"exponent_{RANGE}"], exponent_else=rows[1][f"exponent_{RANGE}"])
 
 
 def publish_runs(postproc, *names):
@@ -503,8 +497,8 @@ def publish_runs(postproc, *names):
         "gamma, B: by likelihood of the times above so many means, or by least squares on their density, of events of at least a size"
     ], [row for folder in usual if "_120_" in folder.name for row in rows_of_run(postproc, folder)])
     update_table(BURSTS, [
-        "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt, one_line: one line",
-        "more than half of that; share: of these periods; rates of drops >= 1e-4 in 1000 time units; else: without bursts (faults.py publish)"
+        "Stretches of 250 time units; bursts: those in which periods below 2 have more than half of the variance of dPE/dt; rates of drops >= 1e-4",
+        "in 1000 time units; else: without bursts (faults.py publish)"
     ], [bursts_of(postproc, folder) for folder in full if "_120_" in folder.name], lambda row: (FAULTS.index(row["fault"]), int(row["packing"])))
     update_table(
         SPECTRUM,
@@ -761,11 +755,11 @@ def estimator_values():
 
 def burst_values():
     for row in read(BURSTS):
-        for key in "stretches bursts rate_in_bursts rate_else rate_largest gamma gamma_else exponent exponent_else".split():
+        for key in "stretches bursts rate_in_bursts rate_else gamma gamma_else exponent exponent_else".split():
             if row[key]:
                 yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), source="bursts.csv")
     disc = read(TRAPPED)[0]
-    for key in "period radius share_of_line own_period".split():
+    for key in ("period", "share_of_line"):
         yield Value(f"trapped.1.{key}", number(disc, key), source="trapped.csv")
 
 
@@ -825,19 +819,16 @@ CROSSING = 15  # time of a P-wave through the blocks
 
 
 def after_crossings(run):
-    """Share of drops that begin within a crossing after one of at least 0.01, over that of random times outside drops, and with sizes shuffled."""
+    """Share of drops that begin within a crossing after one of at least 0.01, over that with sizes shuffled."""
     events, rng = run.events[run.events["size"] >= 1e-4], np.random.default_rng(1)
-    starts, ends, large = events["t_start"], events["t_end"], events["size"] >= 1e-2
+    starts, large = events["t_start"], events["size"] >= 1e-2
+    rng.uniform(size=40000)  # the published numbers come after these
 
-    def near(times, ends):
-        ends = np.sort(ends)
-        return np.mean(times - np.append(-np.inf, ends)[np.searchsorted(ends, times, "right")] < CROSSING)
+    def near(large):
+        ends = np.sort(events["t_end"][large])
+        return np.mean(starts - np.append(-np.inf, ends)[np.searchsorted(ends, starts, "right")] < CROSSING)
 
-    times = rng.uniform(LOADING, ends.max(), 40000)
-    last = np.searchsorted(starts, times, "right") - 1
-    times = times[(last < 0) | (times > ends[last])]
-    share = near(starts, ends[large])
-    return share / near(times, ends[large]), share / np.mean([near(starts, ends[rng.permutation(large)]) for _ in range(20)])
+    return near(large) / np.mean([near(rng.permutation(large)) for _ in range(20)])
 
 
 def cut_values(postproc):
@@ -859,9 +850,8 @@ def all_values(postproc):
         *values_of("budget.work.{}", work, "energy/1000", **SLIPS), *values_of("budget.share.{}", share_of_large, **SLIPS),
         *values_of("share.mirror.{}", slip_of_middle, **SLIPS),
         *values_of("share.random.{}", lambda run: slip_of_middle(run, "chance"), column="chance"),
-        *values_of("crossing.shuffled.{}", lambda run: after_crossings(run)[1]), *ratio_values(), *growth_values(), *scaling_values(),
-        *fit_values(postproc), *velocity_values(), *estimator_values(), *burst_values(), *threshold_values(), *variant_values(), *spectrum_values(),
-        *cut_values(postproc)
+        *values_of("crossing.shuffled.{}", after_crossings), *ratio_values(), *growth_values(), *scaling_values(), *fit_values(postproc),
+        *velocity_values(), *estimator_values(), *burst_values(), *threshold_values(), *variant_values(), *spectrum_values(), *cut_values(postproc)
     ]
 
 

@@ -8,12 +8,11 @@ nature.py POSTPROC CATALOGUE --threshold SIZE... [--from TIME] --json FILE   the
 Rows are labels above a smallest size: those of earthquakes first, then by distance. Numbers are means over the catalogues of a
 label with their standard errors; those of one catalogue have its own errors.
   distance       Kolmogorov-Smirnov, of the times over their mean to those of the first row; error: circular block bootstrap
-  size_distance  the same of the magnitudes above the smallest one, (2/3) log10 of the size
-  gamma, ...     of the generalised gamma density, of `postproc intervals --rescale`
-  variation      standard deviation over mean; burstiness: (r - 1) / (r + 1) of it in the form for a finite number of times
-  memory         correlation of each time with the next; after_short: mean time after the shortest third
-  before, after  events within a mean time before the start and after the end of the largest 2 %, over that of all others
-  b              Aki's, of these magnitudes
+  gamma          of the generalised gamma density with delta = 1, of `postproc intervals --rescale`
+  burstiness     (r - 1) / (r + 1) of the standard deviation over the mean r, in the form for a finite number of times
+  memory         correlation of each time with the next
+  after          events within a mean time after the end of the largest 2 %, over that of all others
+  b              Aki's, of the magnitudes above the smallest one, (2/3) log10 of the size
 """
 import argparse
 import csv
@@ -118,26 +117,22 @@ def sample_of(starts, ends, sizes, least):
     times, magnitudes = over_mean(np.diff(starts)), np.log10(sizes / least) / 1.5
     n, r, mean = len(times), np.std(times), np.mean(np.diff(starts))
     up, down = math.sqrt(n + 1), math.sqrt(n - 1)
-    short = times[:-1] < np.sort(times)[160 * n // 480]
     large = sizes >= np.sort(sizes)[::-1][int(LARGE * n)]
-    number = np.arange(n + 1)
-    near = dict(before=number - np.searchsorted(starts, starts - mean, "right"),
-                after=np.searchsorted(starts, ends + mean, "left") - np.maximum(np.searchsorted(starts, ends, "left"), number + 1))
-    near = {key: np.mean(one[large]) / np.mean(one[~large]) if one[~large].any() else math.nan for key, one in near.items()}
+    after = np.searchsorted(starts, ends + mean, "left") - np.maximum(np.searchsorted(starts, ends, "left"), np.arange(n + 1) + 1)
     b = 1 / (math.log(10) * np.mean(magnitudes))
-    numbers = dict(variation=r, burstiness=(up * r - down) / ((up - 2) * r + down), memory=np.corrcoef(times[:-1], times[1:])[0, 1],
-                   after_short=np.mean(times[1:][short]), **near)
+    numbers = dict(burstiness=(up * r - down) / ((up - 2) * r + down), memory=np.corrcoef(times[:-1], times[1:])[0, 1],
+                   after=np.mean(after[large]) / np.mean(after[~large]) if after[~large].any() else math.nan)  # yapf: disable
     numbers = {key: (value, math.nan) for key, value in numbers.items()}
     return times, magnitudes, numbers | {"b": (b, math.log(10) * b**2 * np.std(magnitudes, ddof=1) / math.sqrt(len(magnitudes)))}
 
 
 def fits_of(postproc, paths, sizes, *words):
-    """Of each catalogue, for each smallest size: {"threshold": it, "free": fit, "held": fit}, where events are complete."""
+    """Of each catalogue, the fit for each smallest size, where events are complete."""
     thresholds = [word for size in sizes for word in ("--threshold", size)]
-    numbers = numbers_of(postproc, "intervals", *paths, *words, *thresholds, "--rescale", "--method", "likelihood", "--delta", "free", "--delta", 1,
-                         "--replicas", 0, "--shuffles", 0, "--no-picture")
+    numbers = numbers_of(postproc, "intervals", *paths, *words, *thresholds, "--rescale", "--method", "likelihood", "--delta", 1, "--replicas", 0,
+                         "--shuffles", 0, "--no-picture")
     fits = iter(numbers["fits"])
-    return [[{"threshold": one["threshold"], "free": one, "held": next(fits)} for one in (next(fits) for _ in sizes)] for _ in paths]
+    return [[next(fits) for _ in sizes] for _ in paths]
 
 
 def row_of(label, fits, samples, reference, replicas):
@@ -145,21 +140,12 @@ def row_of(label, fits, samples, reference, replicas):
     row = dict(label=label, threshold=fits[0]["threshold"], catalogues=len(samples), events=sum(len(one[1]) for one in samples))
     numbers = []
     for fit, (times, magnitudes, own) in zip(fits, samples):
-        own = dict(own)
-        for which, prefix in (("held", ""), ("free", "free_")):
-            for key in ("gamma", "delta", "B", "C"):
-                value, error = fit[which][key], fit[which][f"{key}_error"]
-                own[prefix + key] = (math.nan if value is None else value, math.nan if error is None else error)
-        for key, mine, k in (("distance", times, 0), ("size_distance", magnitudes, 1)):
-            own[key] = distance_and_error(reference[k], mine, replicas) if reference else (math.nan, math.nan)
-        numbers.append(own)
+        gamma = [math.nan if fit[key] is None else fit[key] for key in ("gamma", "gamma_error")]
+        numbers.append(own | dict(gamma=gamma, distance=distance_and_error(reference[0], times, replicas) if reference else (math.nan, math.nan)))
     for key in numbers[0]:
         values, errors = zip(*(one[key] for one in numbers))
         row[key] = mean_and_error(values, errors if len(values) != 2 else ())  # of two, half of the difference: both numbers are known
-    why = [fit["free"]["degenerate"] for fit in fits if fit["free"]["degenerate"]]
-    row |= dict(why=why[-1] if why else "", without_delta=len(why), times=np.concatenate([one[0] for one in samples]),
-                magnitudes=np.concatenate([one[1] for one in samples]))
-    return row
+    return row | {key: np.concatenate([one[k] for one in samples]) for k, key in enumerate(("times", "magnitudes"))}
 
 
 def rows_of(postproc, models, sizes=SIZES, magnitudes=MAGNITUDES, begin=LOADING, replicas=REPLICAS):
@@ -199,13 +185,10 @@ def from_text(row):
     return f"magnitudes >= {math.log10(row['threshold']) / 1.5:.3g}" if row["label"] == NATURE else f"sizes >= {row['threshold']:.4g}"
 
 
-def measured(row, *keys):
-    return {name: number for key in keys for name, number in zip((key, f"{key}_error"), row[key])}
-
-
 def table(rows):
-    keys = ("distance", "gamma", "variation", "burstiness", "memory", "after_short", "before", "after", "b", "size_distance")
-    return [{key: row[key] for key in ("label", "threshold", "catalogues", "events")} | measured(row, *keys) for row in rows]
+    return [{key: row[key] for key in ("label", "threshold", "catalogues", "events")}
+            | {key + end: x for key in ("distance", "gamma", "burstiness", "memory", "after", "b") for end, x in zip(("", "_error"), row[key])}
+            for row in rows]  # yapf: disable
 
 
 def curves(rows):
@@ -295,10 +278,8 @@ set xlabel "{x}"; set ylabel "{y}"
 def write(rows, base):
     """The tables BASE.csv and BASE.table.csv."""
     write_table(f"{base}.table.csv", [
-        "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of the first row, size_distance: of the magnitudes "
-        "above the smallest, over their mean",
-        "after_short: mean time after the shortest third over the mean; before, after: events within a mean time before the start and after the end of "
-        "large ones, over that of all others; b: Aki",
+        "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of the first row; after: events within a mean time "
+        "after the end of large ones, over that of all others; b: Aki",
         "errors: from the scatter between catalogues of a label (of two, half of their difference), or for one catalogue its own (distances: blocks of "
         "consecutive values resampled)"
     ], table(rows))

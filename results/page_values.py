@@ -40,28 +40,25 @@ CELLS = (
 COSTS = {"ledger": "energy ledger", "location": "location of events", "pressure": "pressure every step"}
 SAVED = {"contacts": "contacts of discs of the same block", "records": "all records"}
 NATURE = (("california", "Southern California", "1000"), ("weakening", "fault 120 weakening", "0.001"))
-WALK = (("to_fault", "springs", "chain-512"), ("to_fault", "blocks", "bulk-512"), ("short", "springs_256", "chain-256"),
-        ("local", "springs", "ruptures-chain-512"), ("local", "blocks", "ruptures-bulk-512"), ("local", "fault", "ruptures-fault"))
 FAST, SLOW = {"run": "2.5e-4_no_leaps"}, {"run": "2.5e-8_leaps_2.5e-4"}
 CHAIN = {"blocks": "256", "seed": "1"}
 BEYOND = (
     *(Cell(f"nature.after.{name}", "nature.table.csv", "after", dict(label=label, threshold=least), "after_error") for name, label, least in NATURE),
-    *(Cell(f"walk.{column}.{name}", "walk.csv", column, {"station": station}, f"{column}_error") for column, name, station in WALK),
+    Cell("walk.short.springs_256", "walk.csv", "short", {"station": "chain-256"}, "short_error"),
     *(Cell(f"slow.gamma.{name}", "slow-driving.csv", "gamma", where, "gamma_error") for name, where in (("fast", FAST), ("slow", SLOW))),
     *(Cell(f"chain.gamma.{name}", "slow-driving-slider.csv", "gamma", CHAIN | where, "gamma_error")
       for name, where in (("fast", {"velocity": "1e-2", "leap": "0"}), ("slow", {"velocity": "1e-7", "leap": "1e-3"}))),
 )
-PEERS = {"harmonic": "bond harmonic", "bpm": "bond bpm/spring", "esys": "ESyS-Particle"}
+PEERS = {"harmonic": "bond harmonic", "esys": "ESyS-Particle"}
 
 
 def slider_values(postproc):
-    """Exponents of event sizes of the chains in the default settings, by decades below and above 1: least and largest over lengths and seeds."""
+    """Exponents of event sizes of the chains in the default settings, below 1: least and largest over lengths and seeds."""
     paths = [FOLDER / f"catalogues/slider_ours_{blocks}_seed_{seed}.catalogue.csv.xz" for blocks in BLOCKS for seed in (1, 2, 3)]
-    fits = numbers_of(postproc, "fit", *paths, "--range", "0.01:1", "--range", "1:100", "--replicas", "0", "--no-comparison", "--no-picture")["fits"]
-    for name, low in ("small", 0.01), ("large", 1):
-        found = [one["exponent"] for one in fits if one["lo"] == low]
-        for what, choose in ("least", min), ("most", max):
-            yield Value(f"slider.{name}.{what}", choose(found), float("nan"), "", len(found), "catalogues/slider_ours_*")
+    fits = numbers_of(postproc, "fit", *paths, "--range", "0.01:1", "--replicas", "0", "--no-comparison", "--no-picture")["fits"]
+    found = [one["exponent"] for one in fits]
+    for what, choose in ("least", min), ("most", max):
+        yield Value(f"slider.small.{what}", choose(found), n=len(found), source="catalogues/slider_ours_*")
 
 
 def speed_values():
@@ -117,11 +114,11 @@ def calibrated():
 
 
 def calibration_values():
-    """How many points there are, and how many meet the printed numbers of sizes and times."""
+    """How many points there are, and how many meet the printed numbers of sizes and times together."""
     rows = calibrated()
-    met = {key: [paper.STATEMENTS_BY_NAME[key].deviation(row) <= 1 for row in rows] for key in ("exponent", "gamma", "B")}
-    for key, some in {"points": [True] * len(rows), **met, "together": [all(three) for three in zip(*met.values())]}.items():
-        yield Value(f"calibration.{key}", sum(some), float("nan"), "", len(rows), "calibration/points.csv.xz")
+    met = [all(paper.STATEMENTS_BY_NAME[key].deviation(row) <= 1 for key in ("exponent", "gamma", "B")) for row in rows]
+    for key, count in ("points", len(rows)), ("together", sum(met)):
+        yield Value(f"calibration.{key}", count, n=len(rows), source="calibration/points.csv.xz")
 
 
 def slow_values():
@@ -138,15 +135,14 @@ def slow_values():
 
 
 def law_values():
-    """Main shocks of laws without a slow process, which have no event long after them, and events around those of the ageing law."""
+    """Main shocks of laws without a slow process, which have no event long after them, and the exponent of Omori's law of the ageing law."""
     laws = {}
     for row in read(FOLDER / "laws.csv"):
         laws.setdefault(row["run"].rsplit("_", 1)[0], []).append(row)
     fast = [row for law in ("coulomb", "static", "slip-weakening", "velocity-weakening") for row in laws[law] if number(row, "after_far") == 0]
     yield Value("laws.shocks.fast", sum(number(row, "main_shocks") for row in fast), float("nan"), "", len(fast), "laws.csv")
-    for name, column in ("after", "after_far"), ("before", "before_far"), ("omori", "omori_p"):
-        some = [number(row, column) for row in laws["ageing"]]
-        yield Value(f"laws.{name}.ageing", *mean_and_error(some), "", len(some), "laws.csv")
+    some = [number(row, "omori_p") for row in laws["ageing"]]
+    yield Value("laws.omori.ageing", *mean_and_error(some), "", len(some), "laws.csv")
 
 
 def all_values(postproc):

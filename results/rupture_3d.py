@@ -94,22 +94,13 @@ def low_pass(values, step, frequency=LOW):
 
 
 def rate_misfit(curve, reference, end):
-    """What of the misfit of slip rates (relative L2) is below the frequency LOW, and what is left of that where both arrive at the same
-    time; and the frequencies below which a half of the squared misfit is then, without low pass."""
+    """What of the misfit of slip rates (relative L2) is below the frequency LOW, in the time in which both may arrive."""
     late = arrival(curve) - arrival(reference)
     late = late if math.isfinite(late) else 0.0
     step = min(0.02, np.diff(reference[0]).min())
     times = np.arange(max(curve[0][0], curve[0][0] - late, reference[0][0]), min(end, end - late), step)
-    wanted = np.interp(times, reference[0], reference[2])
-    found, shifted = (np.interp(times + by, curve[0], curve[2]) for by in (0.0, late))
-
-    def l2(off, of):
-        return math.sqrt(np.sum(off**2) / total) if (total := np.sum(of**2)) > 0 else math.inf
-
-    smooth = low_pass(wanted, step)
-    power = np.cumsum(np.abs(np.fft.rfft(shifted - wanted))**2)
-    return dict(rate_low_l2=l2(low_pass(found, step) - smooth, smooth), rate_low_aligned_l2=l2(low_pass(shifted, step) - smooth, smooth),
-                misfit_frequency=np.searchsorted(power, 0.5 * power[-1]) / (len(times) * step))
+    wanted, found = (low_pass(np.interp(times, one[0], one[2]), step) for one in (reference, curve))
+    return math.sqrt(np.sum((found - wanted)**2) / total) if (total := np.sum(wanted**2)) > 0 else math.inf
 
 
 def stations_of(planes, reference, until):
@@ -121,7 +112,7 @@ def stations_of(planes, reference, until):
             end = min(until, plane.time[-1], one[0][-1])
             rows.append(
                 dict(run=name, spacing=plane.spacing, reference="boundary integral", x=x, z=z) | misfit(curve, one[:3], until)
-                | rate_misfit(curve, one[:3], end) | dict(reference_arrival=plane.seen(one))
+                | dict(rate_low_l2=rate_misfit(curve, one[:3], end)) | dict(reference_arrival=plane.seen(one))
                 | dict(end_dip=np.interp(end, plane.time, dip), reference_end_dip=np.interp(end, one[0], one[3])))
     return rows
 
@@ -138,8 +129,7 @@ def convergence_of(stations):
     for name, of_run in groups.items():
         late = np.array([row["arrival"] - row["reference_arrival"] for row in of_run])
         row = dict(run=name, spacing=of_run[0]["spacing"]) | summary(of_run) | dict(mean=late.mean(), scatter=late.std())
-        row |= {key: math.sqrt(np.mean([one[key]**2 for one in of_run])) for key in ("rate_low_l2", "rate_low_aligned_l2")}
-        row["misfit_frequency"] = np.median([one["misfit_frequency"] for one in of_run])
+        row["rate_low_l2"] = math.sqrt(np.mean([one["rate_low_l2"]**2 for one in of_run]))
         last = before.get(series_of(name))
         for key in ORDERS:
             row[f"order_{key}"] = math.log(last[key] / row[key]) / math.log(last["spacing"] / row["spacing"]) if last else math.nan
@@ -180,7 +170,7 @@ def stations_in(path):
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     try:
-        if not rows or "misfit_frequency" not in rows[0]:
+        if not rows or "rate_low_l2" not in rows[0]:
             raise ValueError
         return [{key: value if key in ("run", "reference") else float(value or "nan") for key, value in row.items()} for row in rows]
     except ValueError:

@@ -104,18 +104,15 @@ def source_values():
     per_run = {}
     for run in runs().values():
         moment, energy = run["slip_moment"], run["radiated_energy"]
-        fitted, large, small = moment >= FITTED, moment >= LARGE, moment < FITTED
+        fitted, large = moment >= FITTED, moment >= LARGE
         middle = (moment >= 1) & ~large
         drop = np.average(run["weighted_stress_drop"][large], weights=moment[large])
-        found = dict(duration=fit(moment[fitted], run["source_duration"][fitted]).slope, small=apparent_stress(run, small),
-                     middle=apparent_stress(run, middle), large=apparent_stress(run, large), stress_drop=drop,
+        found = dict(duration=fit(moment[fitted], run["source_duration"][fitted]).slope, middle=apparent_stress(run, middle), large=apparent_stress(run, large),
                      efficiency=2 * apparent_stress(run, large) / drop, share=energy[large].sum() / run["stress_work"][large].sum())  # yapf: disable
         for name, value in found.items():
             per_run.setdefault(name, []).append(value)
     for name, found in per_run.items():
         yield Value(f"sources.{name}", *mean_and_error(found), "", len(found), DATA.name)
-    longest = [run for (length, _), run in runs().items() if length == "480"]
-    yield Value("sources.480.large", apparent_stress(longest[0], longest[0]["slip_moment"] >= LARGE), source=DATA.name)
     yield Value("sources.ruptures", sum(int((run["slip_moment"] >= FITTED).sum()) for run in runs().values()), n=len(runs()), source=DATA.name)
 
 

@@ -426,7 +426,7 @@ def check_csv():
         wrong.append(differing(FOLDER / f"{name}.csv", list(made())))
     rows = nature.published(POSTPROC)
     wrong += [differing(FOLDER / f"nature{ending}.csv", made) for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)))]
-    measured = {row["station"]: row for row in walk.lines_of(walk.measured(POSTPROC, FOLDER / "walk"))}
+    measured = {row["station"]: row for row in walk.rows(POSTPROC, FOLDER / "walk")}
     there = read(FOLDER / "walk.csv")
     both = [row["station"] for row in there if str(measured.get(row["station"], {"seeds": ""})["seeds"]) == row["seeds"]]
     wrong.append(

@@ -197,7 +197,7 @@ def rupture_values():
     plane = {run["run"]: run for run in plane_runs()}
     finest["tpv5"] = plane["150 m"], "rupture_3d-convergence.csv"
     for name, (run, file) in finest.items():
-        for key in ("rate_l2",) if name == "tpv3" else ("arrival", "slip", "rate_l2"):
+        for key in {"tpv205": ("arrival", "slip"), "tpv3": ("rate_l2",), "tpv5": ("arrival",)}[name]:
             yield Value(f"{name}.{key}", run[key], source=file)
     yield Value("tpv5.order.scatter", order_of(plane["200 m"], plane["150 m"], "scatter"), source="rupture_3d-convergence.csv")
     lattice = tpv101_runs()["lattice"][-1]

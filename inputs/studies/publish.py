@@ -12,7 +12,6 @@ import itertools
 import json
 import lzma
 import math
-import signal
 import sys
 from pathlib import Path
 
@@ -25,7 +24,6 @@ from variables import defaults  # noqa: E402
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
 CHANGING = ("program", "steps", "min_size", "thinned", "completeness")  # of the header of one run, longer or published otherwise
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Size above which a fault's catalogue is complete, as runs state it now; the headers of earlier runs have a smaller one.
 COMPLETE = defaults()["completeness"]
 
@@ -132,12 +130,7 @@ def main(out, folders, events=None, ruptures=RUPTURES):
     for path, text in texts.items():
         check_replaced(path, text)
     Path(out).mkdir(parents=True, exist_ok=True)
-    packed = {path: compressed(text) for path, text in texts.items()}
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
-    try:
-        replace_all(packed)
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    replace_all({path: compressed(text) for path, text in texts.items()})
 
 
 if __name__ == "__main__":
@@ -146,11 +139,7 @@ if __name__ == "__main__":
     parser.add_argument("--ruptures", type=float, metavar="SIZE", default=RUPTURES, help="smallest rupture (%(default)s)")
     parser.add_argument("out", metavar="OUT", type=Path)
     parser.add_argument("folders", metavar="FOLDER", type=Path, nargs="+")
-    for number in SIGNALS:
-        signal.signal(number, signal.default_int_handler)
     try:
         main(**vars(parser.parse_args()))
     except (Refused, OSError) as error:
         sys.exit(f"publish.py: {error}")
-    except KeyboardInterrupt:
-        sys.exit("publish.py: interrupted, the files are all as before or all new")

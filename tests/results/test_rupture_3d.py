@@ -78,17 +78,15 @@ def test_low_pass():
 
 
 def test_parts_of_the_misfit_of_slip_rates():
-    """An oscillation, and a delay, each by itself: the low pass takes the first away, the same arrival the second."""
+    """An oscillation, and a delay, each by itself: the low pass takes away only the first."""
     times = np.arange(0, 12, 0.02)
     rate = np.where(times > 3, 4 * np.exp(-(times - 3.5)**2 / 2), 0.0)
     one = np.array([times, 0 * times, rate])
     ringing = np.array([times, 0 * times, rate + 3 * np.exp(-(times - 6)**2 / 2) * np.sin(2 * math.pi * 5 * times)])
     late = np.array([times + 0.3, 0 * times, rate])
     found = rupture_3d.rate_misfit(ringing, one, 12.0)
-    assert rupture_3d.misfit(ringing, one, 12.0)["rate_l2"] > 0.5 and found["rate_low_l2"] < 0.02
-    assert found["misfit_frequency"] == pytest.approx(5.0, abs=0.1)
-    found = rupture_3d.rate_misfit(late, one, 12.0)
-    assert found["rate_low_l2"] > 0.25 and found["rate_low_aligned_l2"] < 0.01
+    assert rupture_3d.misfit(ringing, one, 12.0)["rate_l2"] > 0.5 and found < 0.02
+    assert rupture_3d.rate_misfit(late, one, 12.0) > 0.25
 
 
 def test_orders_of_convergence():
@@ -98,8 +96,7 @@ def test_orders_of_convergence():
         off = factor * spacing / 400
         rows += [
             dict(run=name, spacing=spacing, reference="r", arrival=2 + sign * off**2, reference_arrival=2.0, end_slip=3 + off, reference_end_slip=3.0,
-                 slip_l2=off, peak_rate=1.0, reference_peak_rate=1.0, rate_l2=off**3, rate_low_l2=off, rate_low_aligned_l2=off,
-                 misfit_frequency=spacing) for sign in (1, -1)
+                 slip_l2=off, peak_rate=1.0, reference_peak_rate=1.0, rate_l2=off**3, rate_low_l2=off) for sign in (1, -1)
         ]
     table = {row["run"]: row for row in rupture_3d.convergence_of(rows)}
     for name in ("200 m", "100 m"):
