@@ -473,8 +473,9 @@ def bursts_of(postproc, folder):
         path.write_text("".join(line for line in lines if not line[0].isdigit() or int(line.split(",", 1)[0]) in kept))
         rows = summary.rows_of(postproc, [folder / "fault.catalogue.csv", path], ["1e-4"], [RANGE], begin=LOADING, shortest=0)
     return dict(run=folder.name, fault=folder.name.split("_")[0], packing=catalogue.header["seed"], stretches=len(start), bursts=int(noisy.sum()),
-                rate_in_bursts=np.mean(rate[noisy]) if noisy.any() else math.nan, rate_else=np.mean(rate[~noisy]), gamma=rows[0]["gamma_0.0001"],
-                gamma_else=gamma_law.fit(times[calm], floc=0)[0], exponent=rows[0][f"exponent_{RANGE}"], exponent_else=rows[1][f"exponent_{RANGE}"])
+                rate_in_bursts=np.mean(rate[noisy]) if noisy.any() else math.nan, rate_else=np.mean(rate[~noisy]), rate_largest=rate.max(),
+                gamma=rows[0]["gamma_0.0001"], gamma_else=gamma_law.fit(times[calm], floc=0)[0], exponent=rows[0][f"exponent_{RANGE}"],
+                exponent_else=rows[1][f"exponent_{RANGE}"])
 
 
 def publish_runs(postproc, *names):
@@ -755,7 +756,7 @@ def estimator_values():
 
 def burst_values():
     for row in read(BURSTS):
-        for key in "stretches bursts rate_in_bursts rate_else gamma gamma_else exponent exponent_else".split():
+        for key in "stretches bursts rate_in_bursts rate_else rate_largest gamma gamma_else exponent exponent_else".split():
             if row[key]:
                 yield Value(f"burst.{key}.{row['fault']}.{row['packing']}", float(row[key]), source="bursts.csv")
     disc = read(TRAPPED)[0]
