@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Fixtures of all tests of programs. programs.py runs programs, data_files.py reads and writes files."""
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -82,7 +83,5 @@ def small_disk(work):
 
 @pytest.fixture(scope="session")
 def gnuplot():
-    for folder in os.environ["PATH"].split(":"):
-        if Path(folder, "gnuplot").exists():
-            return True
-    pytest.skip("no gnuplot")
+    if not shutil.which("gnuplot"):
+        pytest.skip("no gnuplot")

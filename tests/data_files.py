@@ -11,6 +11,7 @@ import numpy as np
 from programs import SOURCE
 
 sys.path.insert(0, str(SOURCE / "python"))
+import lsm  # noqa: E402
 from lsm.tables import header_of, rows_of  # noqa: E402
 
 COLUMNS = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end".split(",")
@@ -105,25 +106,10 @@ def write_series(path, pe, head=(), step=None):
     Path(path).write_bytes(b"lsm-pe-series-1\n" + struct.pack("<q", len(said)) + said + records.tobytes())
 
 
-def binary_header(raw, magic):
-    assert raw[:16] == magic, raw[:16]
-    length, = struct.unpack("<q", raw[16:24])
-    return dict(line[2:].split(" = ", 1) for line in raw[24:24 + length].decode().splitlines()), raw[24 + length:]
-
-
 def read_series(path):
     """Header, steps, times and PE of a series."""
-    head, records = binary_header(Path(path).read_bytes(), b"lsm-pe-series-1\n")
-    own = head.get("times") == "own"
-    found = np.frombuffer(records, [("step", "<i8"), *([("time", "<f8")] if own else []), ("pe", "<f8")])
-    time = found["time"] if own else float(head["time0"]) + (found["step"] - float(head["step0"])) * float(head["dt"])
-    return head, found["step"], time, found["pe"]
-
-
-def read_history(path):
-    """Header, and the records of a slip history: step_begin, step_end, pe, slip, work, stress."""
-    head, records = binary_header(Path(path).read_bytes(), b"lsm-slip-hist-1\n")
-    return head, np.frombuffer(records, history_record((int(head["bins"]),)))
+    found = lsm.read_series(path)
+    return found.header, found["step"], found["time"], found["pe"]
 
 
 def history_record(cells):

@@ -2,6 +2,7 @@
 """The Debian package, unpacked into an empty root and used from there: programs, plugin, scenes, headers,
 manual pages."""
 import gzip
+import importlib.util
 import os
 import re
 import shutil
@@ -11,7 +12,7 @@ from pathlib import Path
 import pytest
 from conftest import MPI, lammps_errors
 from data_files import rows
-from programs import BUILD, Program, run, scene
+from programs import BUILD, SOURCE, Program, run, scene
 from test_python import FAULT
 
 PROGRAM = """#include <lsm/events/event_picker.h>
@@ -34,9 +35,10 @@ def test_install(work):
     version = os.environ["LSM_VERSION"]
     run(Program("cpack", "cpack"), "--config", BUILD / "CPackConfig.cmake", "-B packages")
     deb, = Path("packages").glob("*.deb")
-    assert deb_field(deb, "Version") == version
+    fields = run(Program("dpkg-deb", "dpkg-deb"), "-f", deb).out
+    assert f"\nVersion: {version}\n" in fields
     for library in "libgsl", "libopenmpi", "libfftw3":
-        assert library in deb_field(deb, "Depends"), library
+        assert re.search(f"^Depends: .*{library}", fields, re.M), library
     run(Program("dpkg-deb", "dpkg-deb"), "-x", deb, "root")
     root = work / "root/usr"
     assert os.listdir("root") == ["usr"], "files outside /usr"
@@ -89,7 +91,7 @@ def test_install(work):
 
 
 def test_others_may_use_what_is_installed(work):
-    """A umask that would exclude them causes a warning, as CMake applies it to folders."""
+    """Programs, scenes and pages; a umask that would exclude others causes a warning, as CMake applies it to folders."""
     cmake = Program("cmake", "cmake", "--install", BUILD)
     assert "umask" not in run(cmake, "--prefix", work / "root", umask=0o022).err
     found = [work / "root", *(work / "root").rglob("*")]
@@ -101,8 +103,13 @@ def test_others_may_use_what_is_installed(work):
     for program in work / "root/bin/postproc", inputs / "study.sh", inputs / "run.py", inputs / "studies/publish.py":
         assert program.stat().st_mode & 0o777 == 0o755, program
     assert (inputs / "fault.in").stat().st_mode & 0o777 == 0o644
+    # Its pages have no dead links.
+    documents = work / "root/share/doc/lsm-fault"
+    for name in "README.md", "CHANGELOG.md", "inputs/tutorial.md", "inputs/studies.md", "lammps-pkg/doc/formats.md", "results/README.md":
+        assert (documents / name).is_file(), name
+    spec = importlib.util.spec_from_file_location("check_documents", SOURCE / "tests/check-documents.py")
+    check = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(check)
+    check.check_markdown(documents.resolve())
+    assert check.PROBLEMS == []
     run(cmake, "--prefix", work / "closed", umask=0o077).warned("The umask is 0077: new folders are closed to other users, expected 022")
-
-
-def deb_field(deb, field):
-    return run(Program("dpkg-deb", "dpkg-deb"), "-f", deb, field).out.strip()
