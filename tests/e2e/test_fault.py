@@ -85,15 +85,30 @@ def test_lists_that_are_added_to_do_not_change_the_motion(lmp, work):
     assert max(worst) < 1e-6 and np.median(worst) < 1e-10, worst
 
 
+def regime(name):
+    return of_run(lsm.read_series(f"{name}.pe.bin"), 3000, events=lsm.read_catalogue(f"{name}.catalogue.csv"))
+
+
+def test_a_creeping_fault_is_told_apart(lmp):
+    run(lmp, scene(preset="absorbing", length=60, steps=90000, stress=0.004, prefix="creeping"))
+    found = regime("creeping")
+    assert found["regime"] == "creep" and found["saw_tooth"] < 3 and found["time_in_events"] > 0.3
+
+
 # Mean and standard deviation over 10 seeds
 BANDS = (1.03, 0.09), (0.64, 0.14), (78, 13)
 
 
 def test_statistics_of_a_short_fault(lmp, postproc):
     """Within 2.8 standard deviations of 10 seeds. A change of the last digits changes the events, but
-    hardly ever this test: by chance once in 60 times."""
-    run(lmp, scene("fault.in", preset="absorbing", length=60, steps=300000, seed=1, checkpoint=1000000, series="no", prefix="short"))
+    hardly ever this test: by chance once in 60 times. There is stick-slip."""
+    run(lmp, scene("fault.in", preset="absorbing", length=60, steps=300000, seed=1, checkpoint=1000000, prefix="short"))
     events = read_catalogue("short.catalogue.csv")[1]
+    found = regime("short")
+    assert found["regime"] == "stick-slip" and found["saw_tooth"] > 5 and found["time_in_events"] < 0.3
+    # A disc for which the time step is too large would oscillate from step to step, with an event each time.
+    brief = (events["step_end"] - events["step_start"] <= 3) & (events["size"] >= 1e-4) & (events["step_end"] < 90000)
+    assert not brief.any(), "the time step of the preset is unstable"
     run(postproc, "fit short.catalogue.csv --replicas 0 --no-comparison --no-picture --json fit.json")
     run(postproc, "intervals short.catalogue.csv --delta 1 --method likelihood --shortest 0 --replicas 0 --shuffles 0 "
         "--no-picture --json intervals.json")
@@ -110,26 +125,6 @@ def test_lengths(lmp, work, length):
     length."""
     said = run(lmp, scene(f"fault_{length}.in", settle=0, steps=2, prefix=work / "l"), cwd=INPUTS)
     assert 61 * length < particles(said) < 65 * length
-
-
-def test_stick_slip(lmp):
-    """The absorbing fault, half as long as the shortest one of the paper, has stick-slip, and the measure
-    of it distinguishes a creeping one."""
-
-    def regime(name, **more):
-        run(lmp, scene(preset="absorbing", length=60, steps=90000, prefix=name, **more))
-        found = of_run(lsm.read_series(f"{name}.pe.bin"), 3000, events=lsm.read_catalogue(f"{name}.catalogue.csv"))
-        return [found[key] for key in ("regime", "saw_tooth", "time_in_events")]
-
-    word, saw_tooth, in_events = regime("usual")
-    # Seed 1 has 54 and 0.07.
-    assert word == "stick-slip" and saw_tooth > 5 and in_events < 0.3
-    # A disc for which the time step is too large would oscillate from step to step, with an event each time.
-    _, events = read_catalogue("usual.catalogue.csv")
-    brief = (events["step_end"] - events["step_start"] <= 3) & (events["size"] >= 1e-4)
-    assert not brief.any(), "the time step of the preset is unstable"
-    word, saw_tooth, in_events = regime("creeping", stress=0.004)
-    assert word == "creep" and saw_tooth < 3 and in_events > 0.3
 
 
 # ---- dumps and pictures
