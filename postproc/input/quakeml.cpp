@@ -40,66 +40,52 @@ struct QuakemlEvent {
 };
 
 /// Reads documents, which may follow one another as in files that were joined, and keeps no more
-/// than the events of one block.
+/// than the events of one block. XML has one document in a file: they are parsed as the elements of
+/// one, and their declarations as processing instructions.
 class QuakemlReader {
  public:
   QuakemlReader(files::Bytes &bytes, Collector &out) : bytes_(bytes), out_(out) {
     if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), start, end);
+    XML_SetCharacterDataHandler(parser_.get(), characters);
   }
 
   void read() {
+    constexpr std::string_view declaration = "<?xml", instruction = "<?doc";
+    parse("<documents>", false);
+    std::string text;
     std::vector<char> block(1 << 16);
-    for (bool more = true; more;) {
-      const std::size_t got = bytes_.read(block.data(), block.size());
-      more = got > 0;
-      std::string_view text(block.data(), got);
-      do parse(text, !more);
-      while (!text.empty());
+    while (const std::size_t got = bytes_.read(block.data(), block.size())) {
+      text.append(block.data(), got);
+      for (std::size_t at = 0; (at = text.find(declaration, at)) != text.npos;)
+        text.replace(at, declaration.size(), instruction);
+      // A declaration may continue in the next block.
+      const std::size_t later = std::min(text.size(), declaration.size() - 1);
+      parse(std::string_view(text).substr(0, text.size() - later), false);
+      text.erase(0, text.size() - later);
     }
+    parse(text, false);
+    if (documents_ == 0) out_.fail(line(), "no element found, expected QuakeML");
+    parse("</documents>", true);
   }
 
  private:
-  /// Parses up to the end of the text or of the document, and removes this from the text.
-  void parse(std::string_view &text, bool last) {
-    if (!begun_) {
-      // Before a document, XML allows for nothing.
-      const std::size_t begin =
-          std::min(text.find_first_not_of(" \t\r\n\xef\xbb\xbf"), text.size());
-      for (const char c : text.substr(0, begin)) first_line_ += c == '\n';
-      text.remove_prefix(begin);
-      if (text.empty() && (!last || documents_ > 0)) return;
-      // What is wanted is ASCII. Latin-1 has a meaning for all bytes of whatever else there is.
-      XML_ParserReset(parser_.get(), "ISO-8859-1");
-      XML_SetUserData(parser_.get(), this);
-      XML_SetElementHandler(parser_.get(), start, end);
-      XML_SetCharacterDataHandler(parser_.get(), characters);
-      XML_SetCommentHandler(parser_.get(), comment);
-      begun_ = true;
-      ended_.reset();
-      had_root_ = has_parameters_ = false;
-      done_ = 0;
-    }
+  void parse(std::string_view text, bool last) {
     const XML_Status status =
         XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), last);
     for (const QuakemlEvent &event : std::exchange(events_, {})) add(event);
-    if (ended_) {
-      if (had_root_ && !has_parameters_)
-        throw FileError(out_.path() + ": no element eventParameters, expected QuakeML");
-      first_line_ += static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get())) - 1;
-      text.remove_prefix(static_cast<std::size_t>(*ended_ - done_));
-      begun_ = false;
-      documents_ += had_root_;
-      return;
-    }
-    if (status != XML_STATUS_OK)
-      out_.fail(line(), fmt::format("{}, expected QuakeML",
-                                    XML_ErrorString(XML_GetErrorCode(parser_.get()))));
-    done_ += static_cast<XML_Index>(text.size());
-    text = {};
+    if (no_quakeml_)
+      throw FileError(out_.path() + ": no element eventParameters, expected QuakeML");
+    if (status != XML_STATUS_OK || text_between_)
+      out_.fail(line(),
+                fmt::format("{}, expected QuakeML",
+                            text_between_ ? "text outside of elements"
+                                          : XML_ErrorString(XML_GetErrorCode(parser_.get()))));
   }
 
   std::int64_t line() const {
-    return first_line_ + static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get())) - 1;
+    return static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get()));
   }
 
   static void start(void *reader, const XML_Char *name, const XML_Char **attributes) {
@@ -108,9 +94,10 @@ class QuakemlReader {
   void start(std::string_view name, const XML_Char **attributes) {
     ++depth_;
     text_.clear();
-    if (depth_ == 2) in_parameters_ = name == "eventParameters";
-    has_parameters_ = has_parameters_ || (depth_ == 2 && in_parameters_);
-    if (depth_ == 3 && in_parameters_ && name == "event") {
+    if (depth_ == 2) has_parameters_ = false;
+    if (depth_ == 3) in_parameters_ = name == "eventParameters";
+    has_parameters_ = has_parameters_ || (depth_ == 3 && in_parameters_);
+    if (depth_ == 4 && in_parameters_ && name == "event") {
       event_.emplace(QuakemlEvent{line()});
       inside_.clear();
     } else if (event_) {
@@ -126,7 +113,7 @@ class QuakemlReader {
 
   static void end(void *reader, const XML_Char *) { static_cast<QuakemlReader *>(reader)->end(); }
   void end() {
-    if (event_ && depth_ > 3) {
+    if (event_ && depth_ > 4) {
       if (std::string *const place = place_of_text(); place && place->empty())
         *place = text::trim(text_);
       inside_.resize(inside_.rfind('/'));
@@ -134,22 +121,9 @@ class QuakemlReader {
       events_.push_back(*std::exchange(event_, std::nullopt));
     }
     text_.clear();
-    if (--depth_ > 0) return;
-    had_root_ = true;
-    stop();
-  }
-
-  /// Lets what follows be the beginning of a document.
-  void stop() {
-    ended_ = XML_GetCurrentByteIndex(parser_.get()) + XML_GetCurrentByteCount(parser_.get());
-    XML_StopParser(parser_.get(), XML_FALSE);
-  }
-  static void comment(void *reader, const XML_Char *text) {
-    QuakemlReader &self = *static_cast<QuakemlReader *>(reader);
-    // Between documents; XML does not allow for a declaration after it.
-    if (XML_GetCurrentByteIndex(self.parser_.get()) != 0) return;
-    for (; *text; ++text) self.first_line_ += *text == '\n';
-    self.stop();
+    if (--depth_ > 1) return;
+    ++documents_;
+    no_quakeml_ = no_quakeml_ || !has_parameters_;
   }
 
   /// Where the text of this element goes; nullptr: it is not wanted.
@@ -170,8 +144,13 @@ class QuakemlReader {
 
   static void characters(void *reader, const XML_Char *text, int count) {
     constexpr std::size_t most = 1000;  // more is no number, name or date
-    std::string &known = static_cast<QuakemlReader *>(reader)->text_;
-    if (known.size() < most) known.append(text, static_cast<std::size_t>(count));
+    QuakemlReader &self = *static_cast<QuakemlReader *>(reader);
+    const std::string_view more(text, static_cast<std::size_t>(count));
+    // All but blanks and byte order marks.
+    const auto is_letter = [](char c) { return c > ' ' && c < '\x7f'; };
+    if (self.depth_ == 1 && std::any_of(more.begin(), more.end(), is_letter))
+      self.text_between_ = true;
+    if (self.text_.size() < most) self.text_.append(more);
   }
 
   /// The part that the event prefers, or the first one; nullptr: there is none.
@@ -207,14 +186,11 @@ class QuakemlReader {
 
   files::Bytes &bytes_;
   Collector &out_;
-  std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate(nullptr)};
-  // Of the file: line of its first document that is not read yet, and number of those that are.
-  std::int64_t first_line_ = 1, documents_ = 0;
-  // Of the document: whether it has begun, bytes of it in the blocks before, its end.
-  bool begun_ = false, had_root_ = false, has_parameters_ = false, in_parameters_ = false;
-  XML_Index done_ = 0;
-  std::optional<XML_Index> ended_;
-  int depth_ = 0;
+  // What is wanted is ASCII. Latin-1 has a meaning for all bytes of whatever else there is.
+  std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("ISO-8859-1")};
+  int depth_ = 0, documents_ = 0;
+  bool has_parameters_ = false, in_parameters_ = false;  // of the document, and of the element
+  bool no_quakeml_ = false, text_between_ = false;       // why the file is refused
   std::optional<QuakemlEvent> event_;
   std::vector<QuakemlEvent> events_;  // of the block
   std::string inside_, text_;         // path of the element in the event, and its text so far
