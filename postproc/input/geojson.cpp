@@ -17,48 +17,38 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Numbers of lines, counted once over the whole text if the offsets ascend.
-struct LineCounter {
-  std::string_view text;
-  std::size_t counted = 0;
-  std::int64_t line = 1;
-
-  std::int64_t of(std::ptrdiff_t offset) {
-    for (; static_cast<std::ptrdiff_t>(counted) < offset && counted < text.size(); ++counted)
-      line += text[counted] == '\n';
-    return line;
-  }
-};
-
 using nlohmann::json;
+
+/// The reason in a message of the library: without its number and place, and without the text that
+/// it read last, which may have any bytes.
+std::string reason_in(std::string_view message) {
+  const std::size_t place = message.find(": ");
+  message.remove_prefix(place == message.npos ? message.find("] ") + 2 : place + 2);
+  return std::string(message.substr(0, message.find("; last read")));
+}
 
 json parsed(std::string_view content, Collector &out) {
   constexpr int deepest = 100;
-  LineCounter lines{content};
   const auto depth = [&](int now, json::parse_event_t, json &) {
     if (now > deepest)
       throw FileError(fmt::format("{}: JSON nested more than {} levels deep, expected GeoJSON",
                                   out.path(), deepest));
     return true;
   };
+  const auto fail_at = [&](std::size_t byte, const std::string &reason) {
+    const std::string_view before = content.substr(0, byte);
+    out.fail(1 + std::count(before.begin(), before.end(), '\n'), reason + ", expected GeoJSON");
+  };
   try {
     return json::parse(content, depth);
   } catch (const json::parse_error &error) {
-    const std::string_view says = error.what();
-    const auto has = [says](const char *part) { return says.find(part) != std::string_view::npos; };
-    out.fail(lines.of(static_cast<std::ptrdiff_t>(error.byte) - 1),
-             has("UTF-8")                     ? "text that is not UTF-8, expected GeoJSON"
-             : has("unexpected end of input") ? "the file is truncated, expected GeoJSON"
-             : has("expected end of input")
-                 ? "text after the end of the collection, expected one in a file"
-                 : "no JSON, expected GeoJSON");
-  } catch (const json::out_of_range &error) {  // "... number overflow parsing '1e400'"
-    const std::string_view says = error.what();
-    const std::size_t end = says.rfind('\''), begin = says.rfind('\'', end - 1) + 1;
-    const std::string_view number = says.substr(begin, end - begin);
-    out.fail(lines.of(static_cast<std::ptrdiff_t>(content.find(number))),
-             fmt::format("{} is too large a number, expected GeoJSON", number));
+    fail_at(error.byte, reason_in(error.what()));
+  } catch (const json::out_of_range &error) {
+    const std::string reason = reason_in(error.what());  // number overflow parsing '1e400'
+    const std::size_t quote = reason.find('\'') + 1;
+    fail_at(content.find(reason.substr(quote, reason.rfind('\'') - quote)), reason);
   }
+  return {};
 }
 
 }  // namespace
