@@ -9,32 +9,11 @@
 
 #include "disc_scene.h"
 #include "lmp_runner.h"
-#include "files/slip_history.h"
-#include "read_catalogue.h"
+#include "read_series.h"
 
 using namespace physics;
 
 namespace {
-
-struct History {
-  LSM::SlipHistoryInfo info;
-  double scale = 1.0;
-  std::vector<LSM::SlipRecord> records;
-  std::vector<double> slip;  // in the end, of each bin
-
-  explicit History(const std::string &path) {
-    LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
-    info = reader.info();
-    scale = std::stod(*info.find("scale"));
-    slip.assign(static_cast<std::size_t>(info.grid.bins), 0.0);
-    for (LSM::SlipRecord record; reader.next(record);) {
-      for (std::size_t b = 0; b < slip.size(); ++b)
-        slip[b] += static_cast<double>(record.row.slip[b]) / scale;
-      records.push_back(record);
-    }
-  }
-  double end() const { return info.grid.time(records.back().step_end); }
-};
 
 /// Settings for small blocks and a rupture that runs for one second.
 Variables small(const std::string &prefix) {
@@ -48,16 +27,19 @@ using Benchmark = Lmp;
 
 TEST_F(Benchmark, SelfSimilarCrack) {
   const Result r = ran_scene("rupture_crack.in", {{"dx", "200"}, {"speed", "0.5"}});
-  const History history(path("crack_200.slip.bin"));
+  const auto [info, records] = unit::read_history(path("crack_200.slip.bin"));
   const double vs = 6000.0 / std::sqrt(3.0), mu = 2670.0 * vs * vs;
-  const double tip = 0.5 * vs * history.end();
+  const double tip = 0.5 * vs * info.grid.time(records.back().step_end);
   EXPECT_NEAR(tip, 6000.0, 1e-6);
   double measured = 0.0, shape = 0.0;
-  for (int b = 0; b < history.info.grid.bins; ++b) {
-    const double x = history.info.grid.centre(b);
+  for (int b = 0; b < info.grid.bins; ++b) {
+    const double x = info.grid.centre(b);
     if (std::fabs(x) > 0.7 * tip) continue;
+    double slip = 0.0;
+    for (const LSM::SlipRecord &record : records)
+      slip += static_cast<double>(record.row.slip[static_cast<std::size_t>(b)]);
     const double one = 7e6 / mu * std::sqrt(tip * tip - x * x);
-    measured += one * history.slip[static_cast<std::size_t>(b)];
+    measured += one * slip / std::stod(*info.find("scale"));
     shape += one * one;
   }
   // Freund (1990), section 6.3.3, for vp / vs = sqrt 3

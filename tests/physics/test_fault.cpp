@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "fault_scene.h"
-#include "files/pe_series.h"
 #include "read_catalogue.h"
+#include "read_series.h"
 #include "same_events.h"
 
 using namespace physics;
@@ -80,19 +80,14 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
                              unit::read_catalogue(path("resumed" + tag + ".csv")).events, 1e-9);
     unit::expect_same_events(a.events, b.events, 1e-6, 1e-6, 40.0);
 
-    LSM::PeSeriesReader x(LSM::files::open_plain(path("whole" + tag + ".pe")));
-    LSM::PeSeriesReader y(LSM::files::open_plain(path("resumed" + tag + ".pe")));
-    std::int64_t step = 0, other = 0;
-    double time = 0, pe = 0, other_time = 0, other_pe = 0;
-    std::int64_t samples = 0;
-    while (x.next(step, time, pe)) {
-      ASSERT_TRUE(y.next(other, other_time, other_pe));
-      ASSERT_EQ(step, other);
-      ASSERT_NEAR(pe, other_pe, 1e-9 * pe);
-      ++samples;
+    const auto x = unit::read_series(path("whole" + tag + ".pe")),
+               y = unit::read_series(path("resumed" + tag + ".pe"));
+    ASSERT_EQ(x.size(), 5001U);
+    ASSERT_EQ(y.size(), x.size());
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      ASSERT_EQ(x[n].step, y[n].step);
+      ASSERT_NEAR(x[n].pe, y[n].pe, 1e-9 * x[n].pe);
     }
-    EXPECT_EQ(samples, 5001);
-    EXPECT_FALSE(y.next(other, other_time, other_pe));
   }
 }
 

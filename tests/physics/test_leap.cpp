@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fault_scene.h"
-#include "files/pe_series.h"
 #include "read_catalogue.h"
+#include "read_series.h"
 
 using namespace physics;
 
@@ -258,16 +258,11 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   std::map<double, double> model;  // time of each step
   for (const auto &row : r.thermo) model[row.at("Step")] = row.at("f_leap");
 
-  LSM::PeSeriesReader reader(LSM::files::open_plain(path("samples.pe")));
-  EXPECT_TRUE(reader.info().explicit_times);
-  std::int64_t step = 0, samples = 0;
-  double time = 0.0, pe = 0.0;
-  while (reader.next(step, time, pe)) {
-    ASSERT_NEAR(time, model.at(static_cast<double>(step)), 1e-12 * time) << step;
-    ++samples;
-  }
-  EXPECT_EQ(samples, 8001);
-  EXPECT_GT(time, 1.5 * 8000 * 0.03);  // it leapt
+  const auto series = unit::read_series(path("samples.pe"));
+  EXPECT_EQ(series.size(), 8001U);
+  for (const unit::Sample &one : series)
+    ASSERT_NEAR(one.time, model.at(static_cast<double>(one.step)), 1e-12 * one.time) << one.step;
+  EXPECT_GT(series.back().time, 1.5 * 8000 * 0.03);  // it leapt
 
   const auto drops = unit::read_catalogue(path("samples.csv")),
              ruptures = unit::read_catalogue(path("samples.ruptures"));

@@ -8,8 +8,8 @@
 
 #include "facing_spheres.h"
 #include "fault_scene.h"
-#include "files/slip_history.h"
 #include "read_catalogue.h"
+#include "read_series.h"
 #include "same_events.h"
 
 using namespace physics;
@@ -44,13 +44,6 @@ static std::string moved(const std::vector<Motion> &motions) {
     after += "unfix " + name + "\ngroup " + name + " delete\n";
   }
   return script + "run 10\n" + after;
-}
-
-static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
-  LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
-  std::vector<LSM::SlipRecord> records;
-  for (LSM::SlipRecord record; reader.next(record);) records.push_back(record);
-  return records;
 }
 
 // An interval lasts 1, so that velocities are slips.
@@ -105,7 +98,7 @@ TEST_F(Plane, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
     // first of 10 steps.
     EXPECT_NEAR(b.size, 1e-5 * 0.0098 * 0.05 * 0.95, 0.01 * 4.6e-9);
 
-    const auto records = records_of(path("moved.slip"));
+    const auto records = unit::read_history(path("moved.slip")).records;
     double strike = 0.0, dip = 0.0;
     for (const LSM::SlipRecord &record : records)
       for (std::size_t k = 0; k < record.row.work.size(); ++k) {

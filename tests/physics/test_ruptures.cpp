@@ -7,9 +7,8 @@
 
 #include "facing_spheres.h"
 #include "fault_scene.h"
-#include "files/pe_series.h"
-#include "files/slip_history.h"
 #include "read_catalogue.h"
+#include "read_series.h"
 #include "same_events.h"
 #include "slow_ruptures.h"
 
@@ -39,14 +38,6 @@ static std::string moved(const std::vector<std::pair<int, double>> &bins, int st
   return script + "run " + std::to_string(steps) + "\n" + after;
 }
 
-static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
-  LSM::SlipHistoryReader reader(LSM::files::open_plain(path));
-  std::vector<LSM::SlipRecord> records;
-  LSM::SlipRecord record;
-  while (reader.next(record)) records.push_back(record);
-  return records;
-}
-
 TEST_F(Ruptures, ParticlesThatAreNewHaveNotMoved) {
   const std::string script =
       upper_and_lower("history new.slip driving 0.001 bin 2 interval 10 modulus 0.5");
@@ -54,7 +45,7 @@ TEST_F(Ruptures, ParticlesThatAreNewHaveNotMoved) {
       ran(script + moved({{3, 0.01}}, 55) +
           "create_atoms 2 single 30.5 8 0\nset atom 41 diameter 2\nset atom 41 mass 1\n"
           "group upperface type 2\nrun 45\n");
-  for (const LSM::SlipRecord &record : records_of(path("new.slip")))
+  for (const LSM::SlipRecord &record : unit::read_history(path("new.slip")).records)
     for (const float slip : record.row.slip) EXPECT_LT(std::fabs(slip), 0.011f);
 }
 
@@ -114,9 +105,8 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
     EXPECT_GT(a.pe_start, a.pe_end);
 
     // All slip of the fault belongs to ruptures, or is below the velocity, as in bin 5.
-    const LSM::SlipHistoryInfo info =
-        LSM::SlipHistoryReader(LSM::files::open_plain(path("moved.slip"))).info();
-    const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
+    const auto [info, records] = unit::read_history(path("moved.slip"));
+    const auto slow = unit::slow_ruptures(info, records);
     EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * 0.04 + 0.06 - 0.05, close * 0.23);
     // The last of the ten intervals belongs to an incomplete record.
     EXPECT_NEAR(slow.slip_elsewhere, 0.018, close * 0.018);
@@ -164,9 +154,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   EXPECT_EQ(r.last("c_events"), static_cast<double>(drops.size()));
   EXPECT_EQ(r.last("c_events[18]"), static_cast<double>(catalogue.events.size()));
   EXPECT_EQ(r.last("c_events[19]"), catalogue.events.back().size);
-  const LSM::SlipHistoryInfo info =
-      LSM::SlipHistoryReader(LSM::files::open_plain(path("found.slip"))).info();
-  const auto records = records_of(path("found.slip"));
+  const auto [info, records] = unit::read_history(path("found.slip"));
   const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
   std::vector<LSM::Rupture> expected;
   std::size_t large = 0;
@@ -195,14 +183,13 @@ TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
     SCOPED_TRACE(ranks);
     const std::string prefix = "agree" + std::to_string(ranks);
     ran(sheared(found + std::string("quiet 1 ")) + "run 6000\n", {{"prefix", prefix}}, ranks);
-    const LSM::SlipHistoryInfo info =
-        LSM::SlipHistoryReader(LSM::files::open_plain(path(prefix + ".slip"))).info();
-    const auto records = records_of(path(prefix + ".slip"));
+    const auto [info, records] = unit::read_history(path(prefix + ".slip"));
     ran(sheared(replaced(found, "interval 7", "interval 1") + "quiet 1 ") + "run 6000\n",
         {{"prefix", prefix + "steps"}}, ranks);
-    const auto each_step = records_of(path(prefix + "steps.slip"));
+    const auto each_step = unit::read_history(path(prefix + "steps.slip")).records;
     const double factor = info.ruptures.modulus * info.grid.width;
-    const auto slip_between = [&records](std::int64_t from, std::int64_t to, std::size_t bin) {
+    const auto slip_between = [&records = records](std::int64_t from, std::int64_t to,
+                                                   std::size_t bin) {
       double slip = 0.0;
       for (const LSM::SlipRecord &record : records)
         slip += part_within(record, from, to) * static_cast<double>(record.row.slip[bin]);
@@ -273,7 +260,7 @@ TEST_F(Ruptures, SlipAndWorkOfTheFaultAddUp) {
             "thermo_style custom step c_events[11] c_events[17] f_plates[8]\n"
             "thermo_modify format float %.17g\nthermo 100000\nrun 140000\n");
     double slip = 0.0, work = 0.0;
-    const auto records = records_of(path(std::string(scene.contacts) + ".slip"));
+    const auto records = unit::read_history(path(std::string(scene.contacts) + ".slip")).records;
     for (const auto &record : records)
       for (std::size_t n = 0; n < record.row.slip.size(); ++n) {
         slip += static_cast<double>(record.row.slip[n]);
@@ -303,8 +290,7 @@ TEST_F(Ruptures, BeginAfterARestartFileWithoutThem) {
   refused({"exists", "no slip of compute events"}, from + fault_shear(found) + "run 10\n",
           {{"prefix", "there"}});
   ran(from + fault_shear(found) + "run 100\n", {{"prefix", "begun"}});
-  EXPECT_EQ(LSM::SlipHistoryReader(LSM::files::open_plain(path("begun.slip"))).info().grid.step0,
-            100);
+  EXPECT_EQ(unit::read_history(path("begun.slip")).info.grid.step0, 100);
 }
 
 TEST_F(Ruptures, OneLineOfError) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "read_catalogue.h"
+#include "read_series.h"
 #include "same_events.h"
 #include "unit_files.h"
 
@@ -195,19 +196,12 @@ TEST_F(EventStreamFiles, CatalogueIsWhatThePickerFindsInTheSeries) {
   run.stream = std::make_unique<EventStream>(run.settings);
   run.begin();
   run.run(0, 400, 100);
-  LSM::EventPicker picker(run.settings.picker);
-  LSM::PeSeriesReader series(LSM::files::open_plain(run.settings.series_file));
-  std::vector<LSM::Event> expected;
-  std::int64_t step, samples = 0;
-  double time, pe;
-  for (LSM::Event event; series.next(step, time, pe); ++samples) {
-    EXPECT_EQ(pe, pe_at(step));
-    if (picker.push(step, time, pe, event)) expected.push_back(event);
-  }
-  EXPECT_EQ(samples, 401);
+  const auto series = unit::read_series(run.settings.series_file);
+  EXPECT_EQ(series.size(), 401U);
+  for (const unit::Sample &one : series) EXPECT_EQ(one.pe, pe_at(one.step));
   const auto events = unit::read_catalogue(run.settings.catalogue_file).events;
   ASSERT_GE(events.size(), 9u);
-  unit::expect_same_events(events, expected);
+  unit::expect_same_events(events, unit::picked(series, run.settings.picker));
   EXPECT_EQ(run.stream->drops().events, static_cast<std::int64_t>(events.size()));
 }
 
@@ -395,12 +389,7 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
     run.stream->add_block(block, [](std::int64_t step) { return 0.5 * static_cast<double>(step); });
   });
   EXPECT_TRUE(unit::contains(message, "Potential energy is not finite at step 2"));
-  LSM::PeSeriesReader series(
-      LSM::files::open_plain(settings.series_file));  // of a run that still exists
-  std::int64_t step, samples = 0;
-  double time, pe;
-  while (series.next(step, time, pe)) ++samples;
-  EXPECT_EQ(samples, 2);
+  EXPECT_EQ(unit::read_series(settings.series_file).size(), 2U);  // of a run that still exists
 }
 
 TEST(EventStream, WhatTheOutsideChangesIsNoEvent) {

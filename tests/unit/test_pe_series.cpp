@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "files/pe_series.h"
+#include "read_series.h"
 #include "unit_files.h"
 
 namespace {
@@ -20,6 +20,7 @@ using LSM::PeSeriesInfo;
 using LSM::PeSeriesReader;
 using LSM::PeSeriesWriter;
 using unit::expect_error;
+using unit::read_series;
 using unit::resume;
 using unit::slurp;
 using unit::spill;
@@ -36,19 +37,6 @@ PeSeriesInfo some_info() {
 }
 
 double some_pe(std::int64_t step) { return 1e4 + 1.0 / static_cast<double>(step); }
-
-struct Sample {
-  std::int64_t step;
-  double time, pe;
-};
-
-std::vector<Sample> read_all(const std::string &path) {
-  PeSeriesReader reader(LSM::files::open_plain(path));
-  std::vector<Sample> samples;
-  Sample sample{};
-  while (reader.next(sample.step, sample.time, sample.pe)) samples.push_back(sample);
-  return samples;
-}
 
 const std::string pairs =
     "# model = block-slider\n"
@@ -134,7 +122,7 @@ TEST_F(PeSeries, OwnTimesComeBackAndGoOn) {
       again.write(step, time_of(step), some_pe(step));
   }
   EXPECT_EQ(slurp(file()), before);
-  const auto samples = read_all(file());
+  const auto samples = read_series(file());
   ASSERT_EQ(samples.size(), 11U);
   for (const auto &sample : samples) {
     EXPECT_EQ(sample.time, time_of(sample.step));
@@ -152,12 +140,12 @@ TEST_F(PeSeries, OwnTimesOutOfOrderAreRefused) {
   EXPECT_THROW(writer.write(102, 7.5, 1.0), FileError);
   writer.write(102, 8.0, 2.0);
   writer.close();
-  EXPECT_EQ(read_all(file()).size(), 2U);
+  EXPECT_EQ(read_series(file()).size(), 2U);
   // The same file, changed without the writer.
   std::string bytes = slurp(file());
   bytes[bytes.size() - 10] = '\x1c';  // 8 becomes 7
   spill(file(), bytes);
-  expect_error<FileError>([&] { read_all(file()); }, "expected increasing times");
+  expect_error<FileError>([&] { read_series(file()); }, "expected increasing times");
 }
 
 TEST_F(PeSeries, ComesBackToTheLastBit) {
@@ -181,7 +169,7 @@ TEST_F(PeSeries, ComesBackToTheLastBit) {
   EXPECT_EQ(reader.info().stride, 2);
   EXPECT_EQ(reader.info().parameters, some_info().parameters);
   EXPECT_EQ(*reader.info().find("N"), "256");
-  const std::vector<Sample> samples = read_all(file());
+  const std::vector<unit::Sample> samples = read_series(file());
   ASSERT_EQ(samples.size(), 6U);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_EQ(samples[i].step, 100 + 2 * static_cast<std::int64_t>(i));
@@ -196,10 +184,10 @@ TEST_F(PeSeries, FlushMakesSamplesVisible) {
   writer.create(file(), some_info());
   for (std::int64_t step = 100; step < 120; step += 2) writer.write(step, some_pe(step));
   writer.flush();
-  EXPECT_EQ(read_all(file()).size(), 10U);
+  EXPECT_EQ(read_series(file()).size(), 10U);
   // A reader gets whole samples only, however much has been written so far.
   for (std::int64_t step = 120; step < 30000; step += 2) writer.write(step, some_pe(step));
-  EXPECT_GT(read_all(file()).size(), 1000U);
+  EXPECT_GT(read_series(file()).size(), 1000U);
 }
 
 // ---- bad files ----
@@ -210,7 +198,7 @@ TEST_F(PeSeries, BadFiles) {
   const std::size_t data = good.size() - 3 * 16;
   const auto refused = [&](const std::string &text, const std::string &message) {
     spill(file(), text);
-    expect_error<FileError>([&] { read_all(file()); }, file() + message);
+    expect_error<FileError>([&] { read_series(file()); }, file() + message);
   };
   for (std::size_t cut = 1; cut < 16; ++cut)
     refused(good.substr(0, good.size() - cut), ": truncated record 3 at the end");
@@ -264,7 +252,7 @@ TEST_F(PeSeries, WriterRefusesWhatNoReaderWouldTake) {
                           "cannot write step 102: pe is not finite");
   writer.write(102, 1.0);
   writer.close();
-  EXPECT_EQ(read_all(file()).size(), 2U);
+  EXPECT_EQ(read_series(file()).size(), 2U);
 }
 
 TEST_F(PeSeries, WriterRefusesBadHeaders) {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "files/slip_history.h"
+#include "read_series.h"
 #include "unit_files.h"
 
 namespace {
@@ -16,7 +16,6 @@ namespace {
 using LSM::FaultRow;
 using LSM::FileError;
 using LSM::SlipHistoryInfo;
-using LSM::SlipHistoryReader;
 using LSM::SlipHistoryWriter;
 using LSM::SlipRecord;
 using unit::expect_error;
@@ -52,11 +51,7 @@ FaultRow some_row(int n) {
 }
 
 std::vector<SlipRecord> read(const std::string &path, bool lenient = false) {
-  SlipHistoryReader reader(LSM::files::open_plain(path), lenient);
-  std::vector<SlipRecord> records;
-  SlipRecord record;
-  while (reader.next(record)) records.push_back(record);
-  return records;
+  return unit::read_history(path, lenient).records;
 }
 
 void resume(SlipHistoryWriter &writer, const std::string &path, const SlipHistoryInfo &info,
@@ -109,7 +104,7 @@ TEST_F(SlipHistory, HeaderComesBack) {
   SlipHistoryWriter writer;
   create(writer);
   writer.close();
-  const SlipHistoryInfo info = SlipHistoryReader(LSM::files::open_plain(file())).info();
+  const SlipHistoryInfo info = unit::read_history(file()).info;
   writer.create(path("again.bin"), info, 100, 1.5, some_row(0).stress);
   writer.close();
   EXPECT_EQ(slurp(path("again.bin")), slurp(file()));
@@ -155,15 +150,14 @@ TEST_F(SlipHistory, ThoseOfAPlaneAreOfVersion2) {
   EXPECT_EQ(bytes.substr(0, 16), "lsm-slip-hist-2\n");
   EXPECT_TRUE(unit::contains(
       bytes, "# bins_dip = 2\n# z0 = -3\n# bin_dip = 1.5\n# ends_dip = open\n# ends = open\n"));
-  const SlipHistoryReader reader(LSM::files::open_plain(file()));
-  const LSM::FaultGrid &grid = reader.info().grid;
+  const auto [read_info, records] = unit::read_history(file());
+  const LSM::FaultGrid &grid = read_info.grid;
   EXPECT_TRUE(grid.plane);
   EXPECT_FALSE(grid.ring || grid.ring_dip);
   EXPECT_EQ(grid.cells(), 6);
   EXPECT_EQ(grid.z0, -3.0);
   EXPECT_EQ(grid.height, 1.5);
-  EXPECT_EQ(reader.info().record_bytes(), 24 + 4 * 5 * 6);
-  const std::vector<SlipRecord> records = read(file());
+  EXPECT_EQ(read_info.record_bytes(), 24 + 4 * 5 * 6);
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[0].row.stress, row.slip);
   EXPECT_EQ(records[1].row.slip, row.slip);
