@@ -134,12 +134,6 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
   ran(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null"}});
 }
 
-TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
-  refused({"bin 1e-06 makes", "bins of a box", "expected at most 1048576"},
-          fault_read() + fault_shear("bin 1e-6 ruptures many.csv") + "run 10\n");
-  EXPECT_FALSE(std::filesystem::exists(path("many.csv")));
-}
-
 TEST_F(BadInput, AnotherRunWritesTheFile) {
   const std::string shear = fault_read() + fault_shear("catalogue held.csv series held.pe");
   for (int ranks : {1, 2})

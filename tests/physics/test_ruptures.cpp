@@ -327,16 +327,19 @@ TEST_F(Ruptures, OneLineOfError) {
 }
 
 // Discs that move off those below them reduce PE; moving back raises it, which ends the event.
+static std::string located(const std::string &more = "") {
+  return upper_and_lower(
+             "catalogue located.csv location yes bin 2 fraction 0.05 lambda 0 modulus 0.5\n" +
+             more) +
+         moved({}, 10) +                                              // at rest
+         moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +  // 7 is below the fraction
+         moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
+}
+
 TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
-  const std::string script =
-      upper_and_lower(
-          "catalogue located.csv location yes bin 2 fraction 0.05 lambda 0 modulus 0.5") +
-      moved({}, 10) +                                              // at rest
-      moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +  // 7 is below the fraction
-      moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
   for (int ranks : {1, 4}) {
     SCOPED_TRACE(ranks);
-    ran(script, {}, ranks);
+    ran(located(), {}, ranks);
     const auto catalogue = unit::read_catalogue<LSM::Drop>(path("located.csv"));
     ASSERT_EQ(catalogue.events.size(), 1u);
     const auto &e = catalogue.events[0];
@@ -357,16 +360,9 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
 
 // Contacts are recorded once, and each compute sorts them into its own bins.
 TEST_F(Located, EachComputeHasItsOwnBins) {
-  const auto located = [](const char *more) {
-    return upper_and_lower(
-               "catalogue own.csv location yes bin 2 fraction 0.05 lambda 0 modulus 0.5\n" +
-               std::string(more)) +
-           moved({}, 10) + moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +
-           moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
-  };
-  ran(located(""));
-  const std::string alone = read_file(path("own.csv"));
-  ASSERT_EQ(unit::read_catalogue(path("own.csv")).events.size(), 1u);
+  ran(located());
+  const std::string alone = read_file(path("located.csv"));
+  ASSERT_EQ(unit::read_catalogue(path("located.csv")).events.size(), 1u);
   for (
       const char *other :
       {"compute other all lsm/events",
@@ -374,7 +370,7 @@ TEST_F(Located, EachComputeHasItsOwnBins) {
        "compute other all lsm/events sides below above faces lowerface upperface ruptures other.csv "
        "overwrite yes driving 0.001 modulus 0.5 bin 5"}) {
     ran(located(other));
-    EXPECT_EQ(read_file(path("own.csv")), alone) << other;
+    EXPECT_EQ(read_file(path("located.csv")), alone) << other;
   }
 }
 
