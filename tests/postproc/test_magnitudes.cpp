@@ -167,23 +167,6 @@ TEST(BValue, ErrorIsThatPublishedWithSeismoStats) {
   EXPECT_NEAR(result.error / (result.b * result.b), 0.09776728958456313, 1e-6);
 }
 
-TEST(BValue, SmallExampleByHand) {
-  // Excess over the completeness: 0.1, 0.2 ... 1.0, mean 0.55, sum of squares about it 0.825.
-  std::vector<double> magnitudes = {-3.0, 0.99};
-  for (int i = 1; i <= 10; ++i) magnitudes.push_back(1.0 + 0.1 * i);
-  const BValue aki = b_value(magnitudes, 1.0);
-  EXPECT_EQ(aki.n, 10);
-  EXPECT_NEAR(aki.b, 1.0 / (ln10 * 0.55), 1e-12);
-  EXPECT_NEAR(aki.error, ln10 * aki.b * aki.b * std::sqrt(0.825 / 90.0), 1e-12);
-  // With bins of 0.1, the bin centred at 1.0 includes 0.99.
-  const BValue tinti = b_value(magnitudes, 1.0, 0.1);
-  EXPECT_EQ(tinti.n, 11);
-  EXPECT_NEAR(tinti.b, std::log(1.0 + 0.1 * 11.0 / 5.49) / (ln10 * 0.1), 1e-12);
-  // Positive differences: 10 of about 0.1, that from 0.99 to 1.1 being 0.11.
-  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1).n, 10);
-  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.25).n, 0);
-}
-
 TEST(BValue, ErrorCoversTheTruth) {
   for (const double b : {0.1, 1.0, 1.5})
     for (const double width : {0.0, 0.1}) {

@@ -42,11 +42,6 @@ class Plot : public unit::Files {
     options.output = path(name);
     return options;
   }
-  /// Draws a figure and returns its SVG.
-  std::string svg_of(const Figure &figure) const {
-    make(figure, output("drawn"));
-    return slurp(path("drawn.svg"));
-  }
 };
 
 /// Sets PATH to a folder without programs for the lifetime of the object.
@@ -112,20 +107,6 @@ TEST(Table, WideTextIsTurnedOnItsSide) {
   for (int k = 0; k < 30; ++k) table.add(k);
   table.end_row();
   EXPECT_EQ(table.text().find("  column_0   0\n  column_1   1\n"), 0U);
-}
-
-TEST_F(Plot, LabelsArePrintedAsTheyAre) {
-  const std::string title = R"(a_b^c {x} @y \n "q" ~t 'r' $HOME %d é)";
-  const std::string svg = svg_of(figure(title));
-  EXPECT_TRUE(contains(svg, R"(a_b^c {x} @y \n "q" ~t 'r' $HOME %d é)"));
-}
-
-TEST_F(Plot, LabelsRunNoCommand) {
-  const std::string marker = path("marker");
-  const std::string svg =
-      svg_of(figure("`touch " + marker + "`" + "'.system('touch " + marker + "').'"));
-  EXPECT_FALSE(std::filesystem::exists(marker));
-  EXPECT_TRUE(contains(svg, "`touch "));
 }
 
 TEST_F(Plot, FolderNameMayHoldQuotesAndBlanks) {

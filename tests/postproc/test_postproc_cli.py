@@ -114,13 +114,9 @@ def test_pick_settings(do, no):
     no("torn.bin: truncated record 5000 at the end", "pick torn.bin -o new.csv")
     do("pick torn.bin -o new.csv --lenient").warned("torn.bin: dropped a truncated last sample: 1")
     no("is read by this command", "pick pe.bin -o ./pe.bin --overwrite")
-    no("lambda = 1, expected at least 0 and less than 1", "pick pe.bin -o x.csv --lambda 1")
     series("leaky.bin", **{"lambda": 1.5})
     no("leaky.bin: header line .*: lambda is '1.5', expected a number of at least 0 and less than 1", "pick leaky.bin -o x.csv")
     no("memory-time with the reading 'literal', expected 'exponential'", "pick pe.bin -o x.csv --memory-time 3")
-    no("lambda excludes", "pick pe.bin -o x.csv --memory-time 10 --lambda 0.5")
-    no("min-size = -1, expected a finite size of at least 0", "pick pe.bin -o x.csv --min-size -1")
-    no("picker = .median., expected exponential, average or literal", "pick pe.bin -o x.csv --picker median")
 
 
 @pytest.mark.parametrize("picker", ["exponential", "literal"])

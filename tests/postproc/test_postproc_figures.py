@@ -82,7 +82,6 @@ def test_intervals(do, no):
         assert row[8] == pytest.approx(row[7] / (150 * (row[5] - row[4])), rel=1e-9)
     first.printed(" 150 20 model time 1.061 0.02944$")
     first.printed("LSM\n .*0.995 .*1.00 .*15.21 .*0.0573")
-    said("i.table1.csv", "^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,")
     # Every second event is large, with times of 10 and 100.
     do("intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture")
     assert any(row[7] == 50 and row[4] <= 10 / 40 < row[5] for row in curve("r.csv", 2))

@@ -54,23 +54,6 @@ TEST(Intervals, FewerRandomSeriesOfLongOnes) {
   EXPECT_EQ(shuffles_for(100'000'000), 19);
 }
 
-TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
-  IntervalSettings settings;
-  settings.thresholds = {0.0};
-  settings.deltas.clear();
-  const auto variation = [&settings](const EventTable &table) {
-    return interval_curves({table}, settings)[0].variation;
-  };
-  EXPECT_DOUBLE_EQ(variation(events({0.0, 2.0, 4.0, 6.0}, {1.0, 1.0, 1.0, 1.0})), 0.0);
-  // 1, 3: mean 2, standard deviation 1
-  EXPECT_DOUBLE_EQ(variation(events({0.0, 1.0, 4.0}, {1.0, 1.0, 1.0})), 0.5);
-  EXPECT_TRUE(std::isnan(variation(events({0.0, 1.0}, {1.0, 1.0}))));
-  // A gamma density of shape k has 1 / sqrt(k).
-  EXPECT_NEAR(variation(gamma_events(4.0, 1.0, 40000)), 0.5, 0.01);
-  EXPECT_NEAR(variation(gamma_events(0.25, 1.0, 40000)), 2.0, 0.1);
-}
-
-// Values that are printed side by side must be based on the same standard deviation.
 // Short times are left out of the fit. The limit is a multiple of the mean, whatever the unit, and
 // C is that of the density of all times.
 TEST(Intervals, FitFromALowerEndOn) {
@@ -245,37 +228,6 @@ TEST(Table1, PoorFitsAreRejected) {
   EXPECT_TRUE(std::isnan(fit_by(quick, method)->p.value));
   EXPECT_FALSE(fit_by(quick, method)->rejected());
   EXPECT_TRUE(contains(table1(quick, false).csv(), ",,,,made up,\"maximum likelihood"));
-}
-
-TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
-  EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
-  table.complete_from = 0.5;
-  IntervalSettings settings;
-  settings.thresholds = {0.01, 0.8};
-  const auto curves = interval_curves({table}, settings);
-  EXPECT_EQ(curves[0].sample.threshold.size, 0.5);
-  EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(curves[1].sample.threshold.size, 0.8);
-}
-
-TEST(Table1, DegenerateFitsSayWhyAndShowNoNumbers) {
-  const auto curves = interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, {});
-  ASSERT_EQ(curves[0].fits.size(), 4u);
-  for (const IntervalFit &one : curves[0].fits) {
-    EXPECT_NE(one.fit.why, "");
-    for (const double parameter : {one.fit.gamma, one.fit.delta, one.fit.B, one.fit.C})
-      EXPECT_TRUE(std::isnan(parameter));
-    EXPECT_TRUE(contains(table1(curves, false).text(), one.fit.why));
-  }
-}
-
-TEST(Table1, OneEventHasNoTimes) {
-  IntervalSettings settings;
-  const auto curves = interval_curves({events({5.0}, {1.0})}, settings);
-  ASSERT_EQ(curves.size(), 1u);
-  EXPECT_EQ(curves[0].n, 0);
-  EXPECT_TRUE(std::isnan(curves[0].mean));
-  EXPECT_THROW(interval_figure(curves, false), std::runtime_error);
 }
 
 }  // namespace
