@@ -34,10 +34,8 @@ nlohmann::ordered_json json_of(const Results &results) {
     if (one.name.empty()) continue;
     if (const auto *table = std::get_if<Table>(&one.what))
       json[one.name] = table->json();
-    else if (const auto *figure = std::get_if<Figure>(&one.what))
-      json[one.name] = figure->table.json();
     else
-      json[one.name] = *std::get<std::shared_ptr<const nlohmann::ordered_json>>(one.what);
+      json[one.name] = std::get<Figure>(one.what).table.json();
   }
   return json;
 }

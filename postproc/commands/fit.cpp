@@ -2,7 +2,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "numbers.h"
@@ -99,8 +98,7 @@ class Fit : public Statistic {
     if (settings_.ranges.empty()) results.say(texts(settings_.threshold, tables));
     results.say(completeness_notes(fits));
     results.say(bin_notes(tables));
-    results.numbers("fits", nlohmann::json(fits));
-    results.table("", size_fit_table(fits), ".fits");
+    results.table("fits", size_fit_table(fits), ".fits");
     if (roll_off_) results.table("roll_off", roll_offs(tables), ".rolloff");
     results.figure("", densities(tables, fits));
     return results;

@@ -2,10 +2,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "event_time.h"
 #include "interval_figures.h"
 #include "numbers.h"
 
@@ -19,8 +17,8 @@ class Intervals : public Statistic {
   std::vector<std::string> deltas_ = {"1", "free"};
 
   const char *help() const override {
-    return "Densities of inter-event times (start to start), generalised gamma fits, and the "
-           "parameters compared with the paper's Table 1 (paper: Figs. 14, 15)";
+    return "Densities of inter-event times (start to start), generalised gamma fits "
+           "(paper: Figs. 14, 15, Table 1)";
   }
 
   void add_options(CLI::App *command) override {
@@ -52,7 +50,7 @@ class Intervals : public Statistic {
     add_seed(group, settings_.seed);
   }
 
-  std::vector<std::string> endings() const override { return {".table1.csv", ".clustering.csv"}; }
+  std::vector<std::string> endings() const override { return {".fits.csv", ".clustering.csv"}; }
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
     TableOf<IntervalCurve> table;
@@ -92,10 +90,9 @@ class Intervals : public Statistic {
       else if (curve.zeros > 0)
         results.warn(fmt::format("{}, {}: {} of {} times are 0, left out of densities and fits",
                                  curve.sample.label, curve.sample.from(), curve.zeros, curve.n));
-    results.table("", table1(curves, settings_.rescale), ".table1");
+    results.table("fits", interval_fit_table(curves, settings_.rescale), ".fits");
     results.table("times", times_of(curves));
-    results.numbers("fits", table1(curves, settings_.rescale, false).json());
-    results.table("clustering", clustering_table(curves, date_text), ".clustering");
+    results.table("clustering", clustering_table(curves), ".clustering");
     results.figure("densities", std::move(figure));
     return results;
   }

@@ -2,8 +2,6 @@
 #include "interval_figures.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -107,23 +105,12 @@ constexpr Named numbers[] = {
 
 }  // namespace
 
-Table clustering_table(const std::vector<IntervalCurve> &curves,
-                       const std::function<std::string(double)> &date) {
+Table clustering_table(const std::vector<IntervalCurve> &curves) {
   TableOf<IntervalCurve> table;
-  const auto time = [date](double Steadiness::*end) {
-    return [date, end](const IntervalCurve &curve) {
-      const double t = curve.steadiness.*end;
-      return curve.sample.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
-    };
-  };
   table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
   table.show("events", [](auto &curve) { return curve.sample.from(); });
   table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
   table.column("n", "times", &IntervalCurve::n);
-  table.show("from", time(&Steadiness::from));
-  table.show("to", time(&Steadiness::to));
-  table.data("from", [](auto &curve) { return curve.steadiness.from; });
-  table.data("to", [](auto &curve) { return curve.steadiness.to; });
   table.column(
       "departure", "departure from a steady rate",
       [](auto &curve) { return curve.steadiness.departure; }, 2);
@@ -150,77 +137,43 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
   return Table(std::move(table));
 }
 
-namespace {
-
-/// A row of the paper's Table 1: gamma, delta, B and C with the digits printed there.
-struct PrintedRow {
-  std::string source;
-  std::array<std::string, 4> parameters;
-};
-const std::array<PrintedRow, 3> printed_rows = {
-    {{"seismicity (Corral 2004)", {"0.67", "0.98", "1.58", "0.50"}},
-     {"LSM", {"0.995", "1.00", "15.21", "0.0573"}},
-     {"Block-Slider", {"0.0", "1.00", "100.0", "0.25"}}}};
-
-/// One of our fits, or a printed row.
-struct Table1Line {
-  const IntervalCurve &curve;
-  const IntervalFit &of;
-  const PrintedRow *printed = nullptr;
-  const GeneralisedGammaFit &fit = of.fit;
-
-  std::string source() const { return printed ? printed->source : curve.sample.label; }
-  std::string from() const { return printed ? "" : curve.sample.from(); }
-  std::string method() const {
-    return std::isnan(of.held) || printed
-               ? of.method
-               : fmt::format("{}, δ = {} held", of.method, short_number(of.held));
-  }
-  Cell times() const { return printed ? Cell(std::string()) : Cell(fit.n); }
-  double ours(double number) const { return printed ? NAN : number; }
-  double shortest() const { return ours(fit.lo); }
-  Cell parameter(std::size_t k) const {
-    const Measured found[] = {
-        {fit.gamma, fit.se_gamma}, {fit.delta, fit.se_delta}, {fit.B, fit.se_B}, {fit.C, fit.se_C}};
-    return printed ? Cell(printed->parameters[k]) : Cell(found[k]);
-  }
-  std::string rejected() const {
-    return std::isnan(of.p.value) ? "" : of.rejected() ? "yes" : "no";
-  }
-};
-
-}  // namespace
-
-Table table1(const std::vector<IntervalCurve> &curves, bool rescaled, bool printed) {
-  TableOf<Table1Line> table;
-  const auto parameter = [](std::size_t k) {
-    return [k](const Table1Line &line) { return line.parameter(k); };
+Table interval_fit_table(const std::vector<IntervalCurve> &curves, bool rescaled) {
+  struct Line {
+    const IntervalCurve &curve;
+    const IntervalFit &of;
+    const GeneralisedGammaFit &fit = of.fit;
   };
-  table.column("origin", "Table 1", [](auto &line) { return line.printed ? "printed" : "ours"; });
-  table.show("", &Table1Line::source);
-  table.show("", &Table1Line::from);
-  table.show("", &Table1Line::method);
-  table.data("threshold", [](auto &line) { return line.ours(line.curve.sample.threshold.size); });
-  table.column("n", "times", &Table1Line::times);
-  table.column("gamma", "γ", parameter(0), 4, true);
-  table.column("delta", "δ", parameter(1), 4, true);
-  table.column("B", "B", parameter(2), 4, true);
-  table.column("C", "C", parameter(3), 4, true);
-  table.show("from", &Table1Line::shortest, 3);
+  const auto method = [](const Line &line) {
+    const double held = line.of.held;
+    return std::isnan(held) ? line.of.method
+                            : fmt::format("{}, δ = {} held", line.of.method, short_number(held));
+  };
+  TableOf<Line> table;
+  table.show("fits", [](auto &line) { return line.curve.sample.label; });
+  table.show("", [](auto &line) { return line.curve.sample.from(); });
+  table.show("", method);
+  table.data("threshold", [](auto &line) { return line.curve.sample.threshold.size; });
+  table.column("n", "times", [](auto &line) { return line.fit.n; });
+  table.column("gamma", "γ", [](auto &l) { return Measured{l.fit.gamma, l.fit.se_gamma}; });
+  table.column("delta", "δ", [](auto &l) { return Measured{l.fit.delta, l.fit.se_delta}; });
+  table.column("B", "B", [](auto &line) { return Measured{line.fit.B, line.fit.se_B}; });
+  table.column("C", "C", [](auto &line) { return Measured{line.fit.C, line.fit.se_C}; });
   table.column(
       "chi2_per_dof", "χ²/dof", [](auto &line) { return line.fit.chi2 / line.fit.dof; }, 3);
   table.column(
       "ks", "KS", [](auto &line) { return line.fit.ks; }, 3);
   table.column(
       "p", "p", [](auto &line) { return line.of.p; }, 2);
-  table.column("rejected", "rejected", &Table1Line::rejected);
-  table.data("source", &Table1Line::source);
-  table.data("method", &Table1Line::method);
-  table.data("shortest", &Table1Line::shortest);
+  table.column("rejected", "rejected", [](auto &line) {
+    return std::isnan(line.of.p.value) ? "" : line.of.rejected() ? "yes" : "no";
+  });
+  table.data("source", [](auto &line) { return line.curve.sample.label; });
+  table.data("method", method);
+  table.column(
+      "shortest", "from", [](auto &line) { return line.fit.lo; }, 3);
   table.column("degenerate", "degenerate", [](auto &line) { return line.fit.why; });
-  table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
-      fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
+      fmt::format("f(theta) = C theta^(gamma-1) exp(-theta^delta / B), theta in {}",
                   rescaled ? "multiples of the mean" : "model time, of earthquakes days"));
   table.comment(
       "to quote: maximum likelihood with delta = 1 held; least squares with C free is what the "
@@ -230,10 +183,6 @@ Table table1(const std::vector<IntervalCurve> &curves, bool rescaled, bool print
       "independent and follow the fitted density: least squares from χ² and its degrees of freedom "
       "(dof), maximum likelihood as the share of synthetic samples, each fitted like the data, whose "
       "Kolmogorov-Smirnov distance KS is as large");
-  const IntervalCurve no_curve = {};
-  const IntervalFit no_fit = {};
-  if (printed)
-    for (const PrintedRow &row : printed_rows) table.row({no_curve, no_fit, &row});
   for (const IntervalCurve &curve : curves)
     for (const IntervalFit &fit : curve.fits) table.row({curve, fit});
   return Table(std::move(table));

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file size_figures.h
 /// Event sizes: their probability densities (paper: Figs. 7, 12, 13), and fitted exponents as a
-/// table and JSON.
+/// table.
 #ifndef LSM_POSTPROC_SIZE_FIGURES_H
 #define LSM_POSTPROC_SIZE_FIGURES_H
 
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "densities.h"
 #include "plot.h"
@@ -38,7 +36,6 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
 Table size_fit_table(const std::vector<SizeFit> &fits);
 /// Returns a line for each fit that uses sizes below the completeness of its catalogue.
 std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits);
-void to_json(nlohmann::json &out, const SizeFit &fit);
 
 /// The fitted law as a line for size_density_figure(), scaled to the density of the whole
 /// catalogue.

@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Fitted exponents as a table and JSON.
+// Fitted exponents as a table.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "numbers.h"
 #include "size_figures.h"
 
 namespace LSM::postproc {
 
-using nlohmann::json;
-
 namespace {
-
-/// Adds the numbers of a fit to its JSON object, or the reason why there are none.
-template <class Fit>
-void add_numbers(json &out, const Fit &fit, const json &found) {
-  out["degenerate"] = fit.degenerate;
-  if (fit.degenerate)
-    out["why"] = fit.why;
-  else
-    out.update(found);
-}
 
 /// "0.001 to 1"
 std::string range_text(const PowerLawFit &fit) {
@@ -41,6 +28,14 @@ const char *favoured(const Comparison &comparison) {
   if (comparison.degenerate || comparison.rival.empty()) return "";
   if (!(comparison.p < 0.05)) return "undecided";
   return comparison.log_likelihood_ratio > 0.0 ? "power law favoured" : "rival favoured";
+}
+
+/// "mu = -3.2, sigma = 1.5"
+std::string parameters_text(const Comparison &comparison) {
+  std::string out;
+  for (const auto &[name, value] : comparison.parameters)
+    out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", name, short_number(value, 6));
+  return out;
 }
 
 }  // namespace
@@ -67,12 +62,14 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
   table.column("p", "p", [](auto &line) { return line.of.p; });
   table.column("rival", "against", [](auto &line) { return line.rival.rival; });
   table.show("", [](auto &line) { return favoured(line.rival); });
+  table.data("parameters", [](auto &line) { return parameters_text(line.rival); });
   table.column(
       "ln_likelihood_ratio", "ln L ratio",
       [](auto &line) { return line.known(line.rival.log_likelihood_ratio); }, 3);
   table.data("normalised", [](auto &line) { return line.known(line.rival.normalised); });
   table.column(
       "rival_p", "p of the comparison", [](auto &line) { return line.known(line.rival.p); }, 2);
+  table.data("log_likelihood", [](auto &line) { return line.fit.log_likelihood; });
   table.data("label", [](auto &line) { return line.of.label; });
   table.column("degenerate", "degenerate", [](auto &line) { return line.rival.why; });
   table.data("name", [](auto &line) { return name_of(line.fit); });
@@ -100,27 +97,6 @@ std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits) {
           "{}: sizes {}: below its completeness of {} the catalogue may depend on the time step",
           fit.label, range_text(fit.fit), short_number(fit.completeness)));
   return notes;
-}
-
-static void to_json(json &out, const Comparison &c) {
-  out = {{"rival", c.rival}};
-  add_numbers(
-      out, c,
-      {{"log_likelihood_ratio", c.log_likelihood_ratio}, {"normalised", c.normalised}, {"p", c.p}});
-  for (const auto &[name, value] : c.parameters) out["parameters"][name] = value;
-}
-
-void to_json(json &out, const SizeFit &fit) {
-  const PowerLawFit &law = fit.fit;
-  out = {{"label", fit.label}, {"model", fit.model}, {"name", name_of(law)},
-         {"lo", law.lo},       {"hi", law.hi},       {"n", law.n}};
-  add_numbers(out, law,
-              {{"exponent", law.alpha},
-               {"standard_error", law.standard_error},
-               {"ks", law.ks},
-               {"log_likelihood", law.log_likelihood},
-               {"comparisons", fit.comparisons}});
-  if (!std::isnan(fit.p.value)) out.update({{"p", fit.p.value}, {"p_error", fit.p.error}});
 }
 
 }  // namespace LSM::postproc

@@ -5,14 +5,11 @@
 #define LSM_POSTPROC_RESULTS_H
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "plot.h"
 
@@ -33,9 +30,7 @@ struct WrittenFile {
 /// One result. `name` is its name in JSON; results without a name are not in JSON.
 struct Result {
   std::string name;
-  std::variant<std::string, Warning, Table, Figure, WrittenFile,
-               std::shared_ptr<const nlohmann::ordered_json>>
-      what;
+  std::variant<std::string, Warning, Table, Figure, WrittenFile> what;
   std::optional<std::string> ending;  ///< of its files BASE + ending + .csv, ...; none: no files
 };
 
@@ -59,11 +54,6 @@ class Results {
   }
   /// Adds a table that is printed and in JSON, but in no file of its own.
   void table(const std::string &name, Table table) { all_.push_back({name, std::move(table), {}}); }
-  /// Adds any JSON value, for programs only.
-  template <class Json>
-  void numbers(const std::string &name, const Json &value) {
-    all_.push_back({name, std::make_shared<const nlohmann::ordered_json>(value), {}});
-  }
   const std::vector<Result> &all() const { return all_; }
 
  private:

@@ -115,9 +115,8 @@ class TableOf : public Table {
 
   /// Declares a column for people and programs.
   template <class Make>
-  void column(std::string name, std::string heading, const Make &make, int digits = 4,
-              bool measured = false) {
-    declare({std::move(name), std::move(heading), digits, measured}, make);
+  void column(std::string name, std::string heading, const Make &make, int digits = 4) {
+    declare({std::move(name), std::move(heading), digits}, make);
   }
   /// Declares a column for programs only.
   template <class Make>
@@ -138,14 +137,10 @@ class TableOf : public Table {
   template <class Make>
   void declare(Column column, const Make &make) {
     using Made = std::decay_t<std::invoke_result_t<Make, const Thing &>>;
-    column.measured = column.measured || std::is_same_v<Made, Measured>;
+    column.measured = std::is_same_v<Made, Measured>;
     columns_.push_back(std::move(column));
-    add_cells_.push_back([make](TableOf &table, const Thing &thing) {
-      if constexpr (std::is_same_v<Made, Cell>)
-        table.put(std::invoke(make, thing));
-      else
-        table.add(std::invoke(make, thing));
-    });
+    add_cells_.push_back(
+        [make](TableOf &table, const Thing &thing) { table.add(std::invoke(make, thing)); });
   }
   std::vector<std::function<void(TableOf &, const Thing &)>> add_cells_;
 };

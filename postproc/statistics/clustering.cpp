@@ -92,8 +92,6 @@ Clustering clustering(const std::vector<double> &times, int replicas, std::uint6
 Steadiness steadiness(const std::vector<double> &starts, int replicas, std::uint64_t seed) {
   Steadiness out;
   if (starts.size() < 20) return out;
-  out.from = starts.front();
-  out.to = starts.back();
   out.departure = departure_of(starts);
   const std::vector<double> times = differences(starts);
   const std::size_t block =

@@ -51,7 +51,6 @@ Clustering clustering(const std::vector<double> &times, int replicas, std::uint6
 
 /// How steady the rate of events is.
 struct Steadiness {
-  double from = NAN, to = NAN;  ///< first and last start
   /// Largest distance of the cumulative number of events from a straight line, over their number.
   double departure = NAN;
   /// Share of series with as large a departure if blocks of the times are permuted. Blocks keep

@@ -90,8 +90,6 @@ TEST(Steadiness, TellsASteadyRateFromOneThatChanges) {
   const Steadiness s = steadiness(starts, 99, 1);
   EXPECT_LE(s.p, 0.01);
   EXPECT_GT(s.departure, 0.2);
-  EXPECT_EQ(s.from, 0.0);
-  EXPECT_EQ(s.to, starts.back());
 }
 
 TEST(Steadiness, DepartureOfAKnownSeries) {

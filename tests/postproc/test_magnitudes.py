@@ -177,7 +177,7 @@ def test_bins_of_any_step_and_offset(postproc, work, width, offset):
     for key in "exponent", "standard_error", "n", "ks", "log_likelihood", "p":
         assert fit[key] == pytest.approx(plain[key], rel=1e-9), key
     assert fit["lo"] == pytest.approx(plain["lo"] * unit) and fit["hi"] == pytest.approx(plain["hi"] * unit)
-    assert {rival["why"] for rival in fit["comparisons"]} == {"only without bins of magnitudes (--magnitude-bin 0)"}
+    assert fit["degenerate"] == "only without bins of magnitudes (--magnitude-bin 0)", "a rival of sizes in bins"
     # The line is drawn through the bins.
     run(postproc, f"histograms q.csv --threshold M{first} --no-picture -o h --overwrite")
     rows = table("h.csv")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Table 1: the values printed in the paper, our values apart from them, and inter-event times.
+// Inter-event times, and the fits to them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -169,28 +169,14 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
   EXPECT_LT(curve.fits[1].fit.lo, 0.5);
 }
 
-TEST(Table1, PrintedValuesAsInThePaper) {
-  const Table printed = table1({}, false);
-  EXPECT_EQ(printed.rows(), 3);
-  // The digits are those printed in the paper.
-  const std::string csv = printed.csv();
-  EXPECT_TRUE(contains(csv, "printed,,,0.67,,0.98,,1.58,,0.50,,,,,,,seismicity (Corral 2004),"));
-  EXPECT_TRUE(contains(csv, "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,,,LSM,"));
-  EXPECT_TRUE(contains(csv, "printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,"));
-  const std::string text =
-      table1(interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, {}), false).text();
-  EXPECT_LT(text.find("  printed"), text.find("Block-Slider"));
-  EXPECT_LT(text.find("Block-Slider"), text.find("  ours"));
-}
-
-TEST(Table1, TimesFromStartToStartAboveTheThreshold) {
+TEST(Intervals, TimesFromStartToStartAboveTheThreshold) {
   const EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
   EXPECT_EQ(inter_event_times(table, 0.0), (std::vector<double>{1.0, 2.0, 4.0}));
   EXPECT_EQ(inter_event_times(table, 0.5), (std::vector<double>{3.0, 4.0}));
   EXPECT_EQ(inter_event_times(table, 2.0), std::vector<double>());
 }
 
-TEST(Table1, PoorFitsAreRejected) {
+TEST(Intervals, PoorFitsAreRejected) {
   IntervalSettings settings;
   settings.shortest = 0.0;
   settings.deltas = {1.0};
@@ -212,9 +198,9 @@ TEST(Table1, PoorFitsAreRejected) {
   EXPECT_LT(fit_by(good, method)->fit.ks, 0.1);
   EXPECT_TRUE(fit_by(poor, method)->rejected());
   EXPECT_EQ(fit_by(poor, method)->p.value, 1.0 / 101.0);
-  EXPECT_TRUE(contains(table1(poor, false).text(), "rejected: p below 0.05"));
-  EXPECT_TRUE(contains(table1(poor, false).csv(), ",yes,made up,\"maximum likelihood"));
-  EXPECT_TRUE(contains(table1(good, false).csv(), ",no,made up,\"maximum likelihood"));
+  EXPECT_TRUE(contains(interval_fit_table(poor, false).text(), "rejected: p below 0.05"));
+  EXPECT_TRUE(contains(interval_fit_table(poor, false).csv(), ",yes,made up,\"maximum likelihood"));
+  EXPECT_TRUE(contains(interval_fit_table(good, false).csv(), ",no,made up,\"maximum likelihood"));
   const IntervalFit *const binned = fit_by(good, "least squares");
   ASSERT_NE(binned, nullptr);
   EXPECT_TRUE(std::isnan(binned->fit.ks));
@@ -227,7 +213,7 @@ TEST(Table1, PoorFitsAreRejected) {
   const auto quick = interval_curves({gamma_events(0.7, 20.0, 5000)}, settings);
   EXPECT_TRUE(std::isnan(fit_by(quick, method)->p.value));
   EXPECT_FALSE(fit_by(quick, method)->rejected());
-  EXPECT_TRUE(contains(table1(quick, false).csv(), ",,,,made up,\"maximum likelihood"));
+  EXPECT_TRUE(contains(interval_fit_table(quick, false).csv(), ",,,,made up,\"maximum likelihood"));
 }
 
 }  // namespace
