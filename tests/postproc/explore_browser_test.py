@@ -332,7 +332,7 @@ class Page(unittest.TestCase):
         for name in "mean", "variation":
             self.assertEqual(page[name], times["times"][0][name])
             self.assertEqual(shown[name], page[f"{name}Text"])
-        ours = {fit["method"]: fit["gamma"] for fit in times["fits"] if fit["origin"] == "ours"}
+        ours = {fit["method"]: fit["gamma"] for fit in times["fits"]}
         held = {fit["method"]: fit for fit in page["gammas"] if fit["deltaHeld"]}
         likely, least = held["maximum likelihood"], held["least squares"]
         for name, here, there in (("exponent", page["law"], law["fits"][0].get("exponent")), ("gamma", likely, ours["maximum likelihood, δ = 1 held"]),
