@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Starts one run of a study, or continues it where it was stopped.
 
-run.py FOLDER fault|slider|esys|catalogue|rupture_SCENE RANKS CHECKPOINT BIN NAME=VALUE...
+run.py FOLDER fault|slider|esys|rupture_SCENE RANKS CHECKPOINT BIN NAME=VALUE...
 
 FOLDER has settings.txt (the settings of the run; others need another folder), output.txt (the output of the
 program), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL (seconds
@@ -15,7 +15,6 @@ status: 0 done, 75 stopped, to be continued, 1 failed.
 import ctypes
 import fcntl
 import gzip
-import hashlib
 import json
 import lzma
 import os
@@ -87,7 +86,7 @@ def events_in(catalogue):
 
 class Job:
     """One run of a program in a folder. OWN: settings that are made here; known(binaries): those that the program has."""
-    catalogue, on_ranks, OWN, known = "catalogue.csv", False, set(), None
+    catalogue, on_ranks = "catalogue.csv", False
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.ranks, self.checkpoint, self.binaries, self.settings = folder, ranks, checkpoint, binaries, settings
@@ -197,20 +196,7 @@ class Esys(Job):
         return [*LOCKED, f"{INPUTS.parent}/tests/bench/esys_fault.sh", str(self.binaries), *self.settings]
 
 
-class Published(Job):
-    """An existing catalogue, `file`. The run is a link to it; other settings only serve to describe it."""
-
-    def command(self):
-        file = Path(dict(pair.split("=", 1) for pair in self.settings).get("file", ""))
-        if not file.is_file():
-            raise Failed(f"{file}: no such catalogue, expected one in the column 'file'")
-        return ["ln", "-sfn", str(file), self.catalogue]
-
-    def steps(self):
-        return 0 if (self.folder / self.catalogue).is_file() else None
-
-
-PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Published, **RUPTURES}
+PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, **RUPTURES}
 
 
 def begun_otherwise(folder, settings):
@@ -219,8 +205,6 @@ def begun_otherwise(folder, settings):
     if not any(any(folder.glob(pattern)) for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json")):
         return ""
     had, wanted = (dict(pair.split("=", 1) for pair in pairs) for pairs in (path.read_text().splitlines() if path.exists() else [], settings))
-    if had.get("program") == wanted["program"] == "catalogue":
-        return ""
     names = [name for name in {**had, **wanted} if had.get(name) != wanted.get(name)]
     told, asked = (" ".join(f"{name}={pairs[name]}" if name in pairs else f"no {name}" for name in names) for pairs in (had, wanted))
     return "" if not names else (f"{folder} was begun with other settings ({told}), expected {asked}; "
@@ -291,8 +275,6 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
     done = dict(steps=job.steps(), events=events_in(folder / job.catalogue), cpu_s=float(cpu.read_text()) if cpu.exists() else None, ranks=int(ranks))
     if kind == "esys":
         done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits in a busy loop
-    if kind == "catalogue":
-        done["md5"] = hashlib.md5((folder / job.catalogue).read_bytes()).hexdigest()  # for what is made from it
     replace(folder / "done.json", json.dumps(done) + "\n")
     lock.close()
     return 0

@@ -27,7 +27,7 @@ for part; do
     catalogues)
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
       for kind in csv gp png svg; do cp "$new/fig13_slider_sizes.$kind" .; done
-      python3 faults.py "$postproc"
+      python3 faults.py
       python3 nature.py "$postproc"
       ;;
     run)

@@ -5,8 +5,8 @@
 rupture_benchmark.py HISTORY... --reference FILE [--until TIME] [--label NAME]... -o BASE
 
 The reference is a table curve,x,t,slip,slip_rate of several curves at several places. Slip is divided by the parameter `scale` of
-the header of the history, by which the stresses were multiplied. Prints the misfits over all stations and the orders of
-convergence; writes BASE-stations.csv, BASE.csv (curves and fronts) and their pictures, BASE.png and BASE.svg (--no-picture: none).
+the header of the history, by which the stresses were multiplied. Prints the misfits over all stations; writes BASE-stations.csv,
+BASE.csv (curves and fronts) and their pictures, BASE.png and BASE.svg (--no-picture: none).
 """
 import argparse
 import csv
@@ -157,8 +157,8 @@ def stations_of(runs, references, until):
 
 
 def report(stations):
-    """Prints the misfits over all stations, and the orders of convergence from each run to the next one of the list."""
-    groups, before = {}, None
+    """Prints the misfits over all stations."""
+    groups = {}
     for row in stations:
         groups.setdefault((row["reference"], row["run"]), []).append(row)
     for (reference, name), rows in groups.items():
@@ -166,10 +166,6 @@ def report(stations):
         print(f"{name}, spacing {spacing:g}, against {reference}: arrival {s['arrival']:.3g}, at most {s['arrival_max']:.3g}; "
               f"slip {100 * s['slip']:.3g} %, at most {100 * s['slip_max']:.3g} %, L2 {100 * s['slip_l2']:.3g} %; "
               f"slip rate: peak {100 * s['peak']:.3g} %, L2 {100 * s['rate_l2']:.3g} %")
-        if before and before[0] == reference and before[1] != spacing:
-            order = {key: math.log(before[2][key] / s[key]) / math.log(before[1] / spacing) for key in ("arrival", "slip", "rate_l2")}
-            print(f"  order from {before[1]:g} to {spacing:g}: " + ", ".join(f"{key} {value:.2f}" for key, value in order.items()))
-        before = reference, spacing, s
 
 
 # ---- picture

@@ -48,7 +48,7 @@ def say_submissions(study, minutes):
     command = yaml.safe_load(Path(profile).read_text()).get("cluster") if profile else None
     if command and {"-n", "--dry-run", "--dryrun"} & set(sys.argv):
         words = [dict(rule="simulation", wildcards=SimpleNamespace(run=run.name), threads=run.ranks,
-                      resources=SimpleNamespace(ranks=run.ranks, runtime=minutes)) for run in not_done(study) if run.program != "catalogue"]  # yapf: disable
+                      resources=SimpleNamespace(ranks=run.ranks, runtime=minutes)) for run in not_done(study)]  # yapf: disable
         say("What would be submitted for each run:", *(f"{one['wildcards'].run}: {command.format(**one)}" for one in words))
 
 
@@ -83,12 +83,12 @@ class RunProgress:
         # Estimated core seconds: 65 discs per unit of length, 44 million steps of a disc per second; for a chain likewise.
         # ESyS-Particle takes 30 times as long. A rupture of a plane: its spacing is space and time.
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))
-        of_step = {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6, "catalogue": 1e-9}
+        of_step = {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6}
         self.cost = self.steps * of_step[run.program] if run.program in of_step else 250 * (200 / float(run.settings.get("dx") or 200))**4
 
     def count_events(self):
         path = Path(self.run.catalogue)
-        if not path.exists() or self.run.program == "catalogue":
+        if not path.exists():
             return self.events
         if path.stat().st_size < self.seen:
             self.events, self.seen = 0, 0

@@ -4,7 +4,6 @@
 study_tables.py CONFIG NAME OUT.csv    writes one of its tables: table, costs, or one of `tables` of the recipe
 """
 import csv
-import hashlib
 import io
 import itertools
 import json
@@ -63,12 +62,6 @@ def pattern(text, where):
         return re.compile("" if text is None else str(text))
     except re.error as error:
         raise TableError(f"{where} '{text}', expected a regular expression ({error})")
-
-
-def contents(files):
-    """Checksums of input files. As a parameter of a rule, they make it run again if a file has changed. Modification times do not
-    tell that, as older files may be moved to a place, and clocks may be set."""
-    return [hashlib.md5(Path(file).read_bytes()).hexdigest() for file in files if os.path.exists(file)]
 
 
 # ---- the table of runs
@@ -140,9 +133,9 @@ def settings_of(row, config):
             raise TableError(f"settings '{word}', but " + (f"there is {key}={pairs[key]} already" if key in pairs else f"{key} is a column"))
         pairs[key] = value
     shorten, lasting = float(config.get("shorten") or 1), [key for key in ("steps", "time") if key in pairs]
-    if row["program"] != "catalogue" and shorten != 1 and not lasting:
+    if shorten != 1 and not lasting:
         raise TableError(f"shorten={shorten:g}, but the line has neither steps nor time")
-    for key in lasting if row["program"] != "catalogue" else ():
+    for key in lasting:
         if not is_number(pairs[key], 0):
             raise TableError(f"{key} '{pairs[key]}', expected a number above 0")
         pairs[key] = f"{float(pairs[key]) / shorten:{'.0f' if key == 'steps' else '.15g'}}"
@@ -162,8 +155,6 @@ def runs_of_row(row, config):
             name = row["run"].format(**one) if row.get("run") else "_".join([one["program"]] + [re.sub(r"[=\s]+", "-", word) for word in own])
         except (AttributeError, KeyError, ValueError, IndexError) as error:
             raise TableError(f"run '{row['run']}', expected a name with columns in braces (not {error})")
-        if one.get("file"):
-            one["file"] = str(here / one["file"].format(**one))
         if not re.fullmatch(r"\w[\w.+-]*", name, re.ASCII):
             raise TableError(f"run '{name}', expected letters, digits, '.', '_', '+' and '-'")
         yield Run(name, {key: value.replace("{here}", str(here)) for key, value in one.items()}, config)
@@ -240,8 +231,6 @@ class Study:
         for run in some:
             if run.name in taken:
                 raise TableError(f"{run.place}: run '{run.name}', expected another name, as results have this one")
-            if run.program == "catalogue" and not Path(run.settings.get("file", "")).is_file():
-                raise TableError(f"{run.place}: {run.settings.get('file', 'nothing')}: no such catalogue, expected one in the column 'file'")
 
     def reference(self, run):
         """The run with which this one is compared, or None."""
@@ -268,7 +257,7 @@ class Study:
         known = {program: self.known_to(PROGRAMS[program]) for program in {run.program for run in self.runs.values()}}
         for run in self.runs.values():
             kind, folder = PROGRAMS[run.program], Path(run.name).resolve()
-            for name in run.settings if kind.known else ():
+            for name in run.settings:
                 if name in kind.OWN:
                     raise TableError(f"{run.place}: '{name}' is set by the study, expected no such column or setting")
                 if name not in known[run.program]:
@@ -281,9 +270,9 @@ class Study:
                 raise TableError(f"{run.place}: {otherwise}")
 
     def known_to(self, kind):
-        """Names of the settings that a program has; none for existing catalogues."""
+        """Names of the settings that a program has."""
         try:
-            return kind.known(self.binaries) if kind.known else set()
+            return kind.known(self.binaries)
         except (OSError, subprocess.CalledProcessError) as error:
             raise TableError(f"cannot ask the programs in {self.binaries} for their options ({error})")
 
@@ -359,7 +348,7 @@ class Study:
 
     def asked(self):
         """All that tables depend on except the numbers of the runs: if it changes, they are made again."""
-        return json.dumps([self.shorten, contents(self.recipe.files), [self.start(run) for run in self.runs.values()]])
+        return json.dumps([self.shorten, [Path(file).read_text() for file in self.recipe.files], [self.start(run) for run in self.runs.values()]])
 
     def table(self, part):
         """One line for each run, with the columns in a part of the recipe."""

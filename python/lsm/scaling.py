@@ -143,12 +143,9 @@ def corrected_aic(chi2, k, points):
 
 def line(x, y, weight):
     """Weighted straight line: ordinate at 0, slope, their standard errors, chi2."""
-    total, mean = np.sum(weight), np.average(x, weights=weight)
-    spread = np.sum(weight * (x - mean)**2)
-    slope = np.sum(weight * (x - mean) * y) / spread
-    ordinate = np.average(y, weights=weight) - slope * mean
-    chi2 = np.sum(weight * (y - ordinate - slope * x)**2)
-    return ordinate, slope, math.sqrt(1 / total + mean**2 / spread), math.sqrt(1 / spread), chi2
+    (slope, ordinate), covariance = np.polyfit(x, y, 1, w=np.sqrt(weight), cov="unscaled")
+    error_of_slope, error = np.sqrt(np.diag(covariance))
+    return ordinate, slope, error, error_of_slope, np.sum(weight * (y - ordinate - slope * x)**2)
 
 
 def fit_scaling(points):

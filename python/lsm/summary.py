@@ -1,25 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One row of numbers for each catalogue of a model †, as CSV on standard output. Exponents and densities of times are those of postproc.
+"""One row of numbers for each catalogue of a model †, as texts. Exponents and densities of times are those of postproc.
 
-    python3 -m lsm.summary POSTPROC CATALOGUE... [--from TIME] [--to TIME] [--range LO:HI]... [--threshold SIZE]... [--window LO:HI]... [--parameter NAME]...
-
-  events, time, largest, released   number, from the first start to the last end, largest size and sum of the sizes
-  in_events, brief         share of the time within events; share of them that last 3 steps or less
-  exponent_LO:HI, error, ks   power law between these sizes by maximum likelihood
+  events, in_events, brief   number; share of the time within events; share of them that last 3 steps or less
+  exponent_LO:HI, error_LO:HI   power law between these sizes by maximum likelihood
   events_S, mean_time_S    of the events of at least the size S: number, mean inter-event time
   share_LO:HI_S            of their inter-event times, the share in a window
   gamma_S, B_S, C_S, ...   generalised gamma density with delta = 1 of the times of at least `shortest`
 """
-import argparse
-import csv
 import math
-import sys
 
 import numpy as np
 
-import lsm
 from lsm.analysis import events_of, numbers_of
-from lsm.program import add_time_window, run
 
 BRIEF = 3  # steps
 THRESHOLDS = ("1e-4", "1e-3", "1e-2", "1e-1")
@@ -46,15 +38,13 @@ def share_within(times, window):
     return np.mean((times >= low) & (times < high)) if len(times) else math.nan
 
 
-def simple_numbers(path, begin, end, thresholds, windows, parameters):
+def simple_numbers(path, begin, end, thresholds, windows):
     """Those that rest on no fit."""
-    header, events = lsm.read_catalogue(path).header, events_of(path, begin, end)
-    sizes = events["size"]
-    row = {name: header.get(name, "") for name in parameters}
+    events = events_of(path, begin, end)
+    header, sizes = events.header, events["size"]
     time = events["t_end"].max() - events["t_start"][0] if len(events) else 0.0
-    row |= {"events": str(len(events)), "time": told(time), "largest": told(sizes.max(initial=-math.inf)) if len(events) else ""}
     durations, least = events["t_end"] - events["t_start"], min(map(float, thresholds))
-    row |= {"released": told(sizes.sum()), "in_events": told(durations.sum() / time) if time and header.get("events", "pe") == "pe" else ""}
+    row = {"events": str(len(events)), "in_events": told(durations.sum() / time) if time and header.get("events", "pe") == "pe" else ""}
     brief = durations[sizes >= least] <= (BRIEF + 0.5) * float(header.get("dt", math.nan))
     row |= {"brief": told(np.mean(brief)) if len(brief) and "dt" in header else ""}
     for text in thresholds:
@@ -65,8 +55,7 @@ def simple_numbers(path, begin, end, thresholds, windows, parameters):
     return row
 
 
-def rows_of(postproc, paths, thresholds=THRESHOLDS, ranges=(), windows=(), parameters=(), begin=-math.inf, end=math.inf, shortest=None,
-            method="likelihood"):
+def rows_of(postproc, paths, thresholds=THRESHOLDS, ranges=(), windows=(), begin=-math.inf, end=math.inf, shortest=None, method="likelihood"):
     """A row for each catalogue, {name: text}, '' where there is no number. shortest, method: of postproc intervals. \\raises ValueError"""
 
     def repeated(option, texts):
@@ -78,37 +67,12 @@ def rows_of(postproc, paths, thresholds=THRESHOLDS, ranges=(), windows=(), param
                       *(["--shortest", shortest] if shortest is not None else []))
     laws, densities, rows = iter(laws), iter(densities), []
     for path in paths:
-        row = simple_numbers(path, begin, end, thresholds, windows, parameters)
+        row = simple_numbers(path, begin, end, thresholds, windows)
         for text in ranges:
             law = next(laws, {})
-            row |= {f"{name}_{text}": told(law.get(key)) for name, key in (("exponent", "exponent"), ("error", "standard_error"), ("ks", "ks"))}
+            row |= {f"{name}_{text}": told(law.get(key)) for name, key in (("exponent", "exponent"), ("error", "standard_error"))}
         for text in thresholds:
             density = next(densities, {})
             row |= {f"{key}_{float(text):g}": told(density.get(key)) for key in ("shortest", "gamma", "gamma_error", "B", "C")}
         rows.append(row)
     return rows
-
-
-def main(postproc, catalogues, **options):
-    rows = rows_of(postproc, catalogues, **options)
-    table = csv.DictWriter(sys.stdout, ["catalogue", *rows[0]], lineterminator="\n")
-    table.writeheader()
-    table.writerows({"catalogue": path, **row} for path, row in zip(catalogues, rows))
-
-
-def parser():
-    options = argparse.ArgumentParser(prog="python3 -m lsm.summary", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("postproc", metavar="POSTPROC")
-    options.add_argument("catalogues", nargs="+", metavar="CATALOGUE")
-    add_time_window(options)
-    options.add_argument("--range", dest="ranges", action="append", default=[], metavar="LO:HI")
-    options.add_argument("--threshold", dest="thresholds", nargs="+", default=THRESHOLDS, metavar="SIZE")
-    options.add_argument("--window", dest="windows", action="append", default=[], metavar="LO:HI")
-    options.add_argument("--parameter", dest="parameters", nargs="+", default=[], metavar="NAME", help="of the header")
-    options.add_argument("--shortest", metavar="FACTOR", help="of the mean: shorter times are left out of the densities")
-    options.add_argument("--method", default="likelihood", choices=("likelihood", "least-squares"))
-    return options
-
-
-if __name__ == "__main__":
-    run(main, parser())

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from programs import INPUTS, SOURCE, Program, run
+from programs import INPUTS, SOURCE
 
 sys.path[:0] = [str(INPUTS / "studies"), str(SOURCE / "python")]
 import calibrate  # noqa: E402
@@ -51,13 +51,6 @@ def test_settings_of_a_run_are_those_of_its_preset():
     assert [absorbing[key] for key in keys] == ["0.025", "0.05", "0.5", "0.6", "0.6", "0.12", "0.12"]
     assert [reflecting[key] for key in keys] == ["0.03", "5e-4", "0.3", "0.6", "0", "0.03", "0.03"]
     assert [leaky[key] for key in keys] == ["0.03", "5e-4", "0.12", "0.6", "0.4", "0.03", "0.03"]
-
-
-def test_points_are_proposed_for_some_statements(work):
-    """As the usage says; the statements come after the file of points."""
-    script = Program("calibrate.py", sys.executable, INPUTS / "studies/calibrate.py", errors=lambda result: [])
-    said = run(script, "propose out.csv 120 4 points.csv exponent,gamma", status=1).err
-    assert "points.csv" in said and "usage" not in said and calibrate.__doc__ not in said
 
 
 def test_settings_go_to_the_surrogate_as_they_were_proposed():

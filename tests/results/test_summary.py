@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """lsm.summary: one row of numbers for each catalogue, compared with the events and with postproc."""
-import csv
 import json
 import math
 import sys
@@ -9,18 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from data_files import read_catalogue, table, write_catalogue
-from programs import SOURCE, Program, refused, run
+from programs import SOURCE, run
 
 sys.path.insert(0, str(SOURCE / "python"))
 from lsm import summary  # noqa: E402
 
 
-@pytest.fixture
-def script(postproc):
-    return Program("lsm.summary", sys.executable, "-m", "lsm.summary", postproc.path, env={"PYTHONPATH": SOURCE / "python"})
-
-
-def test_summary(script, postproc, work):
+def test_summary(postproc, work):
     """Sizes span four decades, times are uneven, and every seventh event lasts one step."""
     random = np.random.default_rng(3)
     i, t, times, ends, steps = np.arange(1, 401), 0.0, [], [], []
@@ -32,18 +26,16 @@ def test_summary(script, postproc, work):
         t += long * 0.5
         ends.append(t)
     size = 1e-5 * np.exp(9.2 * random.random(400))
-    write_catalogue("c.csv", times, size, dict(model="lsm", dt=0.5, length=40, kt=0.2), t_end=ends, step_start=[a for a, _ in steps],
+    write_catalogue("c.csv", times, size, dict(model="lsm", dt=0.5, length=40), t_end=ends, step_start=[a for a, _ in steps],
                     step_end=[b for _, b in steps], pe_start=2 + size, pe_end=[2] * 400)
-    said = run(script, "c.csv --threshold 0 1e-3 --range 1e-4:1e-2 --parameter kt seed --window 10:20")
-    found, = csv.DictReader(said.out.splitlines())
-    assert found["catalogue"] == "c.csv" and found["kt"] == "0.2" and found["seed"] == ""
+    found, = summary.rows_of(postproc.path, ["c.csv"], ["0", "1e-3"], ["1e-4:1e-2"], ["10:20"])
     _, events = read_catalogue("c.csv")
     apart = np.diff(events["t_start"][events["size"] >= 1e-3])
     time = events["t_end"][-1] - events["t_start"][0]
     wanted = {
         "events": 400, "events_0": 400, "events_0.001": len(apart) + 1, "mean_time_0.001": apart.mean(),
         "share_10:20_0.001": np.mean((apart >= 10) & (apart < 20)), "brief": np.mean(events["step_end"] - events["step_start"] <= 3),
-        "largest": size.max(), "released": size.sum(), "time": time, "in_events": np.sum(events["t_end"] - events["t_start"]) / time
+        "in_events": np.sum(events["t_end"] - events["t_start"]) / time
     }
     for name, value in wanted.items():
         assert float(found[name]) == pytest.approx(value, rel=1e-5), name
@@ -56,8 +48,8 @@ def test_summary(script, postproc, work):
     # From one time to another, and what a later one leaves out.
     later, = summary.rows_of(postproc.path, ["c.csv"], ["0"], begin=times[100], end=times[300], shortest=0)
     assert later["events"] == "200" and float(later["shortest_0"]) == 0
-    refused(script, "c.csv --range 2", "--range '2', expected LO:HI")
-    refused(script, "nowhere.csv", "nowhere.csv")
+    with pytest.raises(ValueError, match="--range '2', expected LO:HI"):
+        summary.rows_of(postproc.path, ["c.csv"], ranges=["2"])
 
 
 def test_catalogues_with_too_few_events_have_no_fits(postproc, work):

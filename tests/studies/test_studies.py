@@ -3,7 +3,6 @@
 import csv
 import fcntl
 import json
-import lzma
 import os
 import random
 import re
@@ -232,7 +231,7 @@ def test_disk_full(studies, small_disk):
     same("small/part/fault.catalogue.csv", "whole/fault.catalogue.csv", 15)
 
 
-def test_own_study(studies, work):
+def test_own_study(studies):
     assert studies("one", "-n", table="none.csv", status=None).status != 0, "a table that is not there"
     # A user's own study, without a recipe
     Path("own.csv").write_text("run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1-2,3e6,velocity=0.05 warmup=0\n")
@@ -244,16 +243,6 @@ def test_own_study(studies, work):
         assert float(row["exponent"]) == pytest.approx(json.loads(Path("fit.json").read_text())["fits"][0]["exponent"], rel=1e-5)
         assert int(row["events"]) == len(rows(f"own/{row['run']}/catalogue.csv"))
         assert (float(row["from_size"]), float(row["to_size"])) == (1e-4, 0.1), row
-    # Existing catalogues have the same numbers as the runs from which they are.
-    Path("c_1.csv.xz").write_bytes(lzma.compress(Path("own/c_1/catalogue.csv").read_bytes()))
-    published = f"run,program,file\nagain,catalogue,{work}/c_1.csv.xz\n"
-    Path("published.csv").write_text(published + f"nowhere,catalogue,{work}/nowhere.csv\n")
-    studies("published", table="published.csv", status=1).printed("nowhere.csv: no such catalogue, expected one in the column 'file'")
-    Path("published.csv").write_text(published)
-    studies("published", table="published.csv")
-    again = table("published/table.csv")[0]
-    for key in "events", "exponent", "gamma", "last_time":
-        assert numbers[0][key] == again[key] != "", key
     studies("own", "-n", table="own.csv").printed("Nothing to be done")
 
 

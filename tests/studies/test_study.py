@@ -227,65 +227,6 @@ def test_a_rupture_that_is_stopped_starts_over(study, binaries):
     assert not (folder / "done.json").exists()
 
 
-@pytest.mark.parametrize("columns, said", [(("dx", "1500", "blocks=packing"), "'blocks', which program rupture_tpv5 does not have"),
-                                           (("dx", "1500", "prefix=a"), "'prefix' is set by the study, expected no such column or setting")])
-def test_variables_that_a_rupture_does_not_have(plan, columns, said):
-    with pytest.raises(TableError, match=said):
-        plan(f"run,program,{columns[0]},settings\na,rupture_tpv5,{columns[1]},{columns[2]}\n")
-    plan("run,program,dx,settings\na,rupture_tpv3,1500,blocks=packing seed=2\n")
-
-
-def test_a_catalogue_that_is_replaced_is_read_again(study, work):
-    write(CHAIN)
-    run(study, "my.csv")
-    Path("theirs").mkdir()
-    lines = Path("out/c_1/catalogue.csv").read_text().splitlines(keepends=True)
-    Path("theirs/one.csv").write_text("".join(lines))
-    shutil.move("out", "runs")
-    write("run,program,seed,file\nseen_{seed},catalogue,1,theirs/one.csv\n")
-    # Paths are relative to the folder of the table.
-    run(study, work / "my.csv", cwd=work / "theirs", env={"LSM_OUTPUT": str(work / "out")})
-    assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines))
-    Path("theirs/one.csv").write_text("".join(lines[:-3]))
-    run(study, "my.csv")
-    assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines) - 3)
-    # The number of its events does not matter, nor does its time (test_clocks_say_nothing).
-    made = Path("out/seen_1/numbers/count.json").read_text()
-    smaller = [re.sub(r"^((\d[^,]*,){5})[^,]*", r"\g<1>1e-9", line) for line in lines[:-3]]
-    Path("theirs/one.csv").write_text("".join(smaller))
-    run(study, "my.csv")
-    assert Path("out/seen_1/numbers/count.json").read_text() != made
-    Path("theirs/one.csv").unlink()
-    refused(study, "my.csv", "my.csv:2: .*theirs/one.csv: no such catalogue, expected one in the column 'file'", but=NOTES)
-
-
-def test_clocks_say_nothing(study, slider):
-    """A study interrupted while the clock is set back continues with its files, and one whose clock was ahead is done."""
-    run(slider, "--blocks 100 --seed 1 --steps 1e5 --velocity 0.05 --warmup 0 --catalogue whole.csv")
-    lines = Path("whole.csv").read_text().splitlines(keepends=True)
-    events = sum(line[0] not in "#e" for line in lines)
-    many = " ".join(f"--size {size}" for size in range(1, 2500))
-    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", with_columns(other="found.sizes.sizes[-1].events").replace("--size 1e-3", many))
-    Path("one.csv").write_text("".join(lines))
-    run(study, "my.csv")
-    assert Path("out/seen_1/numbers/sizes.json").stat().st_size > 100000
-    done, numbers = ["out/seen_1/done.json"], ["out/seen_1/numbers/count.json", "out/seen_1/numbers/sizes.json"]
-    for fewer, made in ((3, done), (5, done + numbers)):
-        Path("one.csv").write_text("".join(lines[:-fewer]))
-        run(study, "my.csv", [name.removeprefix("out/") for name in made])
-        for name in ["one.csv", *made]:
-            os.utime(name, (1e9, 1e9))
-        run(study, "my.csv")
-        assert table()["seen_1"]["events"] == str(events - fewer)
-    for ahead in numbers, [path for path in Path("out").rglob("*") if not path.is_symlink()]:
-        for name in ahead:
-            os.utime(name, (4e9, 4e9))
-        run(study, "my.csv")
-        made = when("out/**/*.[cj]s*")
-        run(study, "my.csv")
-        assert when("out/**/*.[cj]s*") == made, f"made again, as {ahead} are of a time to come"
-
-
 def test_what_a_command_refuses_is_an_error_and_no_empty_cell(study):
     write(CHAIN, RECIPE.replace("--size 1e-3", "--sizes 1e-3"))
     assert run(study, "my.csv", status=None).status == 1
@@ -429,23 +370,6 @@ def test_a_full_disk_leaves_no_wrong_numbers(study, small_disk):
     assert table(folder / "out/table.csv") == whole
 
 
-def test_names_that_programs_do_not_have_are_refused(plan):
-    for name, said in (("stepz", "'stepz', which program fault does not have (did you mean steps?)"), ("blocks",
-                                                                                                       "'blocks', which program fault does not have"),
-                       ("prefix", "'prefix' is set by the study"), ("checkpoint", "'checkpoint' is set by the study")):
-        with pytest.raises(TableError) as error:
-            plan(f"run,program,length,{name}\nf,fault,24,100\n")
-        assert str(error.value).startswith(f"my.csv:2: {said}"), error.value
-        with pytest.raises(TableError):
-            plan(f"run,program,length,settings\nf,fault,24,{name}=100\n")
-    with pytest.raises(TableError, match="my.csv:2: 'block', which program slider does not have .did you mean blocks"):
-        plan("run,program,block\nc,slider,100\n")
-    with pytest.raises(TableError, match="'resume' is set by the study"):
-        plan("run,program,resume\nc,slider,yes\n")
-    # Columns of other programs may be empty.
-    assert list(plan("program,run,length,blocks\nfault,f,24,\nslider,c,,100\n").runs) == ["f", "c"]
-
-
 @pytest.mark.parametrize("text, said", [
     ("run,program,seed,seed\nc,slider,1,2\n", "my.csv:1: column 'seed' twice, expected once"),
     ("run,program,,seed\nc,slider,1,2\n", "my.csv:1: a column without a name, expected one"),
@@ -460,7 +384,7 @@ def test_names_that_programs_do_not_have_are_refused(plan):
     ("", "my.csv: empty, expected a table of runs"),
     (BLOCKS + "s,slider,100\n", "my.csv:2: 3 cells, expected 6 as in the first line"),
     (BLOCKS + "s,chain,100,1,1e5,\n",
-     "my.csv:2: program 'chain', expected fault, slider, esys, catalogue, rupture_tpv101, rupture_tpv205, rupture_tpv3, rupture_tpv5 or fault_3d"),
+     "my.csv:2: program 'chain', expected fault, slider, esys, rupture_tpv101, rupture_tpv205, rupture_tpv3, rupture_tpv5 or fault_3d"),
     (BLOCKS + "s,slider,100 200,1,1e5,\n", "my.csv:2: there is a run 's' already, expected another name"),
     (BLOCKS + "s_{size},slider,100,1,1e5,\n", "my.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
     (BLOCKS + "a/b,slider,100,1,1e5,\n", "my.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
@@ -468,6 +392,12 @@ def test_names_that_programs_do_not_have_are_refused(plan):
     (BLOCKS + "s,slider,100,1,1e5,kl\n", "my.csv:2: settings 'kl', expected NAME=VALUE"),
     ("run,program\n# a\nd\xe9j\xe0,slider\n".encode("latin-1"), "my.csv:3: not UTF-8, expected a table of runs in UTF-8"),
     ("run,program\ntable.csv,slider\n", "my.csv:2: run 'table.csv', expected another name, as results have this one"),
+    ("run,program,stepz\nf,fault,100\n", "my.csv:2: 'stepz', which program fault does not have (did you mean steps?)"),
+    ("run,program,settings\nf,fault,blocks=100\n", "my.csv:2: 'blocks', which program fault does not have"),
+    ("run,program,block\nc,slider,100\n", "my.csv:2: 'block', which program slider does not have (did you mean blocks?)"),
+    ("run,program,settings\na,rupture_tpv5,blocks=packing\n", "my.csv:2: 'blocks', which program rupture_tpv5 does not have"),
+    *((f"run,program,{name}\nf,{program},100\n", f"my.csv:2: '{name}' is set by the study, expected no such column or setting")
+      for program, name in (("fault", "prefix"), ("fault", "checkpoint"), ("slider", "resume"), ("rupture_tpv5", "prefix"))),
 ])
 def test_tables_that_say_what_is_wrong(plan, text, said):
     with pytest.raises(TableError) as error:
@@ -503,6 +433,9 @@ def test_tables_that_are_right(plan, work):
     assert list(plan("\ufeffrun,program\nlock,slider\n").runs) == ["lock"], "a mark of the byte order"
     assert list(plan("run,program\r\nc,slider\r\n,\r\n").runs) == ["c"], "line ends of Windows, and an empty line of a spreadsheet"
     assert list(plan("run,program,seed\nc_{seed},slider,4-6\n", seeds=2).runs) == ["c_4", "c_5"]
+    # Columns of other programs may be empty.
+    assert list(plan("program,run,length,blocks\nfault,f,24,\nslider,c,,100\n").runs) == ["f", "c"]
+    plan("run,program,dx,settings\na,rupture_tpv3,1500,blocks=packing seed=2\n")
 
 
 def test_a_run_that_failed_is_no_result(study, work):
