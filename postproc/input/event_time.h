@@ -64,6 +64,7 @@ class TimeStyle {
   bool is_year() const { return digits_ > 0 && in_year_; }
 
   /// Reads a date, a time of day or both.
+  /// \param needs_date whether a time of day alone is refused
   /// \return nothing if the text is none, with a problem if it is known
   std::optional<TimeParts> parse(std::string_view text, bool needs_date,
                                  std::string &problem) const;

@@ -192,13 +192,11 @@ class Page(unittest.TestCase):
 
     # -- user actions
 
-    def test_largest_event_is_there_at_once(self):
+    def test_events_are_chosen_and_zoomed_to(self):
         for column in ("size", "t_start", "t_end", "pe_start", "pe_end", "step_start"):
             self.assertEqual(self.number(column), self.largest[column])
         self.assertIn(str(len(self.events)), self.text("#summary"))
         self.assertEqual(self.one("#event-slip").is_displayed(), bool(fault))
-
-    def test_zoom_to_an_event(self):
         begin, end = self.window()
         self.click("#zoom-event")
         left, right = self.window()
@@ -207,6 +205,13 @@ class Page(unittest.TestCase):
         self.assertLess(right - left, max(5 * (self.largest["t_end"] - self.largest["t_start"]), 0.05 * (end - begin)))
         self.click("#whole-run")
         self.assertEqual(self.window(), [begin, end])
+        third = sorted(self.events, key=lambda event: -event["size"])[2]
+        self.click("#rows tbody tr:nth-child(3) td")
+        self.assertEqual(self.number("size"), third["size"])
+        left, right = self.window()
+        self.assertTrue(left < third["t_start"] and third["t_end"] < right)
+        row = self.one("#rows tbody tr:nth-child(3)")
+        self.assertEqual(row.get_attribute("aria-selected"), "true")
 
     def test_a_click_in_the_picture_chooses_the_event(self):
         second = sorted(self.events, key=lambda event: -event["size"])[1]
@@ -221,7 +226,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.number("size"), second["size"])
         self.assertIn(str(int(second["event_id"])), self.text("#event-head"))
 
-    def test_dragging_over_the_picture_zooms(self):
+    def test_mouse_and_keys_zoom(self):
         graph = self.one(".pe")
         self.js("arguments[0].scrollIntoView({block: 'center'})", graph)
         before = self.window()
@@ -234,8 +239,8 @@ class Page(unittest.TestCase):
         self.settle()
         data = self.js("const [from, to] = app.view.window; return app.view.peData().filter(p => p[0] >= from && p[0] <= to)")
         self.assertIn(len(data), (2, 3))
-
-    def test_keys(self):
+        self.click("#whole-run")
+        self.js("app.choose(app.run, app.eventsOf(app.run).bySize[0])")
         frame = self.one(".graphs")
         self.js("arguments[0].focus()", frame)
         begin, end = self.window()
@@ -255,18 +260,15 @@ class Page(unittest.TestCase):
         following = order[min(order.index(self.largest) + 1, len(order) - 1)]
         self.assertEqual(self.number("t_start"), following["t_start"])
 
-    def test_series_is_the_one_of_the_file(self):
+    def test_series_is_the_one_of_the_file_and_no_drop_is_lost(self):
         steps, pe = pe_series("run.pe.bin")
         self.assertEqual(self.js("return app.runs[0].series.length"), len(pe))
-        found = self.js("return Array.from(app.runs[0].series.values)")
+        values = self.js("return Array.from(app.runs[0].series.values)")
         self.assertEqual(self.js("return app.runs[0].series.step(7)"), steps[7])
         bends = [0, 0] + [abs(pe[i] - 2 * pe[i - 1] + pe[i - 2]) for i in range(2, len(pe))]
         rounding = 1e-14 * max(abs(x) for x in pe)
-        for i, (value, true) in enumerate(zip(found, pe)):
+        for i, (value, true) in enumerate(zip(values, pe)):
             self.assertLessEqual(abs(value - true), 0.5 * max(bends[max(0, i - 12):i + 1]) + rounding, i)
-
-    def test_no_drop_is_lost(self):
-        values = self.js("return Array.from(app.runs[0].series.values)")
         chance = random.Random(1)
         windows = [sorted(chance.sample(range(len(values)), 2)) for _ in range(300)] + [[0, len(values)]]
         found = self.js("return arguments[0].map(([from, to]) => app.runs[0].series.extremes(from, to))", windows)
@@ -312,15 +314,6 @@ class Page(unittest.TestCase):
             if int(event["event_id"]) in self.shown_ids():
                 self.assertTrue(left <= event["t_start"] <= right)
 
-    def test_a_row_shows_its_event(self):
-        third = sorted(self.events, key=lambda event: -event["size"])[2]
-        self.click("#rows tbody tr:nth-child(3) td")
-        self.assertEqual(self.number("size"), third["size"])
-        left, right = self.window()
-        self.assertTrue(left < third["t_start"] and third["t_end"] < right)
-        row = self.one("#rows tbody tr:nth-child(3)")
-        self.assertEqual(row.get_attribute("aria-selected"), "true")
-
     def threshold_agrees(self):
         """The numbers in the table are those of the page, and these are what the commands find."""
         size, page = self.js("return [app.threshold, app.statistics.at(app.statistics.entries[0])]")
@@ -362,14 +355,6 @@ class Page(unittest.TestCase):
         self.click("#usual-threshold")
         self.assertEqual(self.js("return app.threshold"), usual)
 
-    def test_offered_commands_work(self):
-        offered = self.js("return document.querySelector('#commands').textContent").splitlines()
-        self.assertEqual([line.split()[1] for line in offered], ["fit", "intervals"])
-        for line in offered:
-            name, *words = shlex.split(line)
-            self.assertEqual(name, "postproc")
-            run(postproc, *words, "--no-picture", "--replicas", "0")
-
     @unittest.skipUnless(fault, "no lmp: no ruptures and no slip history")
     def test_ruptures_and_their_slip(self):
         ruptures = catalogue("run.sources.csv")
@@ -390,12 +375,23 @@ class Page(unittest.TestCase):
         colours = self.js("const c = document.getElementById('slip-map'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
                           "const s = new Set(); for (let i = 0; i < d.length; i += 4) s.add(d[i] << 16 | d[i + 1] << 8 | d[i + 2]); return s.size")
         self.assertGreater(colours, 20)
+        # What the mouse points at in both pictures of the slip.
+        for picture, readout, text in ("#slip-map", "#slip-readout", "distance "), (".slip", ".view .readout", "time "):
+            self.js("arguments[0].scrollIntoView({block: 'center'})", self.one(picture))
+            ActionChains(self.driver).move_to_element(self.one(picture)).perform()
+            self.assertRegex(self.text(readout), text + r".*: slip velocity \S+ of the driving velocity")
 
     def test_hostile_headers_stay_text(self):
         self.assertEqual(self.driver.title, HOSTILE)
         self.assertEqual(self.text("h1"), HOSTILE)
         self.assertIn(HOSTILE, [cell.get_attribute("textContent") for cell in self.driver.find_elements(By.CSS_SELECTOR, "#parameters td")])
         self.assertEqual(self.driver.find_elements(By.CSS_SELECTOR, "img[src=x]"), [])
+        offered = self.js("return document.querySelector('#commands').textContent").splitlines()
+        self.assertEqual([line.split()[1] for line in offered], ["fit", "intervals"])
+        for line in offered:
+            name, *words = shlex.split(line)
+            self.assertEqual(name, "postproc")
+            run(postproc, *words, "--no-picture", "--replicas", "0")
 
     def test_units_of_earthquakes(self):
         self.open("quakes.html")

@@ -213,6 +213,15 @@ class Slip {
     const along = ((place - this.info.x0) % this.info.length + this.info.length) % this.info.length;
     return Math.min(this.columns - 1, Math.floor(along / this.info.columnWidth));
   }
+  /** What the mouse points at in a picture of an element: parts of its width and height, and the slip
+   *  velocity at the time and place that they stand for; null outside. */
+  under(event, frame, timeAndPlace) {
+    const box = event.currentTarget.getBoundingClientRect();
+    const u = (event.clientX - box.left - frame.x) / frame.w, v = 1 - (event.clientY - box.top - frame.y) / frame.h;
+    const {time, x, place = x} = timeAndPlace(u, v), row = this.rowAt(time);
+    if (u < 0 || u > 1 || v < 0 || v > 1 || row < 0 || row >= this.ends.length) return null;
+    return {time, x, velocity: short(this.velocity(this.cells[row * this.columns + this.columnAt(place)]), 3)};
+  }
 
   /** Slip of each column between two times, by the rows that begin and end within. */
   slipBetween(from, to) {

@@ -170,13 +170,14 @@ class EventPanel {
   }
 
   readSlip(event) {
-    const {frame, x0, x1, from, to, begin, origin} = this.map, box = this.find('slip-map').getBoundingClientRect();
-    const u = (event.clientX - box.left - frame.x) / frame.w, v = 1 - (event.clientY - box.top - frame.y) / frame.h;
-    const slip = this.run.slip, time = from + v * (to - from), x = x0 + u * (x1 - x0), row = slip.rowAt(time);
-    const inside = u >= 0 && u <= 1 && v >= 0 && v <= 1 && row >= 0 && row < slip.ends.length;
-    this.find('slip-readout').textContent = inside
-      ? `distance ${short(x, 4)}, time ${short(time - begin, 4)}: slip velocity ${short(slip.velocity(slip.cells[row * slip.columns + slip.columnAt(origin + x)]), 3)} of the driving velocity` +
-        (time > begin ? `; from its first place at speed ${short(Math.abs(x) / (time - begin), 3)}` : '')
-      : '';
+    const {frame, x0, x1, from, to, begin, origin} = this.map;
+    const under = this.run.slip.under(event, frame, (u, v) => {
+      const x = x0 + u * (x1 - x0);
+      return {time: from + v * (to - from), x, place: origin + x};
+    });
+    const since = under && under.time - begin;
+    this.find('slip-readout').textContent = !under ? '' :
+      `distance ${short(under.x, 4)}, time ${short(since, 4)}: slip velocity ${under.velocity} of the driving velocity` +
+      (since > 0 ? `; from its first place at speed ${short(Math.abs(under.x) / since, 3)}` : '');
   }
 }

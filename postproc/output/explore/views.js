@@ -239,25 +239,19 @@ class View {
     this.frame.addEventListener('keydown', event => this.key(event));
     this.frame.addEventListener('pointerdown', () => this.app.activate(this));
     this.slipBox.addEventListener('pointermove', event => {
-      const place = this.slipAt(event);
-      if (!place) { this.say(' '); return; }
-      this.say(`time ${short(place.time, 9)}, place ${short(place.x, 4)}: slip velocity ${short(place.velocity, 3)} of the driving velocity`);
+      const under = this.slipUnder(event);
+      this.say(under ? `time ${short(under.time, 9)}, place ${short(under.x, 4)}: slip velocity ${under.velocity} of the driving velocity` : ' ');
     });
     this.slipBox.addEventListener('click', event => {
-      const place = this.slipAt(event);
-      if (place) this.chooseAt(place.time);
+      const under = this.slipUnder(event);
+      if (under) this.chooseAt(under.time);
     });
     new ResizeObserver(() => { if (this.sizeGraph) this.refreshSoon(); }).observe(this.box);
   }
 
-  slipAt(event) {
-    const slip = this.run.slip, frame = this.slipFrame, box = this.slipBox.getBoundingClientRect();
-    const u = (event.clientX - box.left - frame.x) / frame.w, v = 1 - (event.clientY - box.top - frame.y) / frame.h;
-    if (u < 0 || u > 1 || v < 0 || v > 1) return null;
-    const time = this.window[0] + u * (this.window[1] - this.window[0]), x = slip.info.x0 + v * slip.info.length;
-    const row = slip.rowAt(time);
-    if (row < 0 || row >= slip.ends.length) return null;
-    return {time, x, velocity: slip.velocity(slip.cells[row * slip.columns + slip.columnAt(x)])};
+  slipUnder(event) {
+    const [from, to] = this.window, {x0, length} = this.run.slip.info;
+    return this.run.slip.under(event, this.slipFrame, (u, v) => ({time: from + u * (to - from), x: x0 + v * length}));
   }
 
   key(event) {
