@@ -85,7 +85,6 @@ Rule positive() {
   return number_that<double>([](double value) { return value > 0.0; }, "a number above 0",
                              "POSITIVE");
 }
-Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
 Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
 Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }
 Rule zero_or_more() {
@@ -93,10 +92,6 @@ Rule zero_or_more() {
 }
 Rule finite() {
   return number_that<double>([](double) { return true; }, "a finite number");
-}
-Rule whole_number(std::uint64_t most) {
-  return number_that<std::uint64_t>([most](std::uint64_t value) { return value <= most; },
-                                    "a whole number from 0 to " + std::to_string(most));
 }
 Rule transformed(const std::function<std::string(std::string &)> &change) {
   return transform(CLI::Validator(change, ""));
@@ -112,7 +107,6 @@ CLI::Option *OptionGroup::bind(const std::string &names, Value &value, const std
                                           const std::vector<Rule> &);
 LSM_BIND(double)
 LSM_BIND(int)
-LSM_BIND(unsigned)
 LSM_BIND(std::int64_t)
 LSM_BIND(std::uint64_t)
 LSM_BIND(std::string)
@@ -145,7 +139,12 @@ CLI::Option *OptionGroup::bind_flag(const std::string &names, bool &value, const
 void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
 
 void add_seed(OptionGroup group, std::uint64_t &seed, const std::string &help) {
-  group.add("--seed", seed, help, whole_number(std::numeric_limits<std::uint64_t>::max()));
+  // CLI11 would turn negative numbers into huge ones, and numbers that are too large into the
+  // largest one.
+  const auto most = std::to_string(std::numeric_limits<std::uint64_t>::max());
+  const auto any = [](std::uint64_t) { return true; };
+  group.add("--seed", seed, help,
+            number_that<std::uint64_t>(any, "a whole number from 0 to " + most));
 }
 
 void set_up(CLI::App &program, const std::string &version) {

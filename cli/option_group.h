@@ -35,12 +35,7 @@ Rule needs(CLI::Option *other);
 Rule positive();
 Rule zero_or_more();
 Rule finite();
-Rule between(double lo, double hi);
 Rule between(std::int64_t lo, std::int64_t hi);
-inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
-/// A rule for unsigned numbers: CLI11 would turn negative numbers into huge ones, and numbers that
-/// are too large into the largest one.
-Rule whole_number(std::uint64_t most);
 Rule among(const std::vector<std::string> &words);
 /// Applies a function that changes the text of the value or returns what is wrong with it.
 Rule transformed(const std::function<std::string(std::string &)> &change);
