@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import header, read_series, rows, same, same_bytes, unknown_keys
+from data_files import header, numbers, pick, read_catalogue, read_series, rows, same, same_bytes, unknown_keys
 from programs import changed, interrupt, refused, run, start
 
 SHORT = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 "
@@ -203,6 +203,22 @@ def test_headers(ran):
         assert {key: value for key, value in found.items() if key != "model"} == said["parameters"], more
         assert set("kc kl mass velocity friction_low friction_high seed scheme dt steps min_size warmup".split()) <= set(found)
         assert said["events"] == len(rows("c.csv"))
+
+
+def test_events_are_those_of_the_series(ran):
+    said = json.loads(
+        ran("--blocks 50 --velocity 0.05 --steps 400000 --warmup 0 --columns centroid,length --picker-lambda 0.95 --json -",
+            "--catalogue c.csv --pe-series c.pe").out)
+    _, step, time, pe = read_series("c.pe")
+    wanted = pick("exponential", 0.95, 0, step, time, pe)
+    assert len(step) == 400001 and len(wanted) > 50 and pe[-1] == pytest.approx(said["pe_direct"], rel=1e-9)
+    assert np.allclose(numbers("c.csv"), wanted, rtol=1e-15, atol=0)
+    events = read_catalogue("c.csv")[1]
+    slip, long, place = (events[name] for name in ("slip_moment", "rupture_length", "x_centroid"))
+    assert (slip >= 0).all() and ((slip > 0) == (long > 0)).all() and long.max() == 50 and place.min() >= 0 and place.max() <= 50
+    assert events["size"].max() == said["largest_event"]
+    # Blocks also slide while the plate raises PE faster than they lower it, but most slip is in events.
+    assert 0.5 < slip.sum() / (50 * said["mean_slip"]) <= 1
 
 
 def test_drops_that_are_no_slip(ran):
