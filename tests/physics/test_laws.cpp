@@ -275,10 +275,11 @@ TEST_F(LawsOnFault, PropertiesOfParticlesActLikeTheNumbersOfTypes) {
     const std::string half = "half." + std::string(law.name);
     const std::string halves = "run 200\nwrite_restart " + half + "\nrun 200\n";
     const std::string script = from_data(own.with(plain, law), "") + halves;
-    const Result one = ran(script), two = ran(script, {{"newton", "on"}}, 2);
+    const Result one = ran(script);
     EXPECT_NE(one.last("c_events[11]"), types.last("c_events[11]"));
-    EXPECT_LT(thermo_difference(one, two, law_columns), 1e-7);
     if (law.name == std::string("coulomb")) {
+      const Result two = ran(script, {{"newton", "on"}}, 2);
+      EXPECT_LT(thermo_difference(one, two, law_columns), 1e-7);
       const Result hybrid = ran(from_data(own.with(under_hybrid, law), "") + "run 200\nrun 200\n");
       EXPECT_LT(thermo_difference(one, hybrid, law_columns), 1e-9);
     }
