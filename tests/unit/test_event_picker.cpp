@@ -65,70 +65,48 @@ std::vector<double> stick_slip(std::uint64_t seed, int count) {
 
 const std::vector<double> by_hand = {0, 2, 1, 0, 0.25, 1.25, 2.25};
 
-struct Expected {
-  std::vector<double> rate;    // A after each sample
-  std::vector<bool> in_event;  // after each sample
-  std::int64_t start, end;     // samples
-  double size;
-};
-
-void check_by_hand(PickerReading reading, const Expected &expected) {
-  EventPicker picker(settings(reading, 0.5));
-  Event event;
-  for (std::size_t i = 0; i < by_hand.size(); ++i) {
-    SCOPED_TRACE(i);
-    // Steps and times differ from the indices, so that confusing them is noticed.
-    const std::int64_t step = 1000 + static_cast<std::int64_t>(i);
-    const bool reported =
-        picker.push(step, 50.0 + 0.25 * static_cast<double>(i), by_hand[i], event);
-    EXPECT_DOUBLE_EQ(picker.rate(), expected.rate[i]);
-    EXPECT_EQ(picker.in_event(), expected.in_event[i]);
-    EXPECT_EQ(reported, static_cast<std::int64_t>(i) == expected.end + 1);
+TEST(EventPicker, EachReadingByHand) {
+  const struct {
+    PickerReading reading;
+    double lambda;
+    std::vector<double> rate;  // A after each sample
+    std::int64_t start, end;   // samples
+    double size;
+  } cases[] = {
+      // A: 1, 0 (not negative: no event yet), -1/2, -1/8, 7/16
+      {PickerReading::exponential, 0.5, {0, 1, 0, -0.5, -0.125, 0.4375, 0.71875}, 2, 4, 0.75},
+      // A <- (x + A/2) / (3/2) = (2x + A)/3
+      {PickerReading::average,
+       0.5,
+       {0, 4.0 / 3, -2.0 / 9, -20.0 / 27, -13.0 / 162, 311.0 / 486, 1283.0 / 1458},
+       1,
+       4,
+       1.75},
+      // Denominators 1, 3/2, 2, 5/2, 3, 7/2. A: 2, 0, -1/2, 0 (the event stays open), 1/3, 1/3
+      {PickerReading::literal, 0.5, {0, 2, 0, -0.5, 0, 1.0 / 3, 1.0 / 3}, 2, 4, 0.75},
+      // without memory the raw sign decides
+      {PickerReading::exponential, 0.0, {0, 2, -1, -1, 0.25, 1, 1}, 1, 3, 2.0}};
+  for (const auto &expected : cases) {
+    EventPicker picker(settings(expected.reading, expected.lambda));
+    Event event;
+    for (std::size_t i = 0; i < by_hand.size(); ++i) {
+      SCOPED_TRACE(std::string(to_string(expected.reading)) + " " + std::to_string(i));
+      // Steps and times differ from the indices, so that confusing them is noticed.
+      const auto at = static_cast<std::int64_t>(i);
+      const bool reported =
+          picker.push(1000 + at, 50.0 + 0.25 * static_cast<double>(i), by_hand[i], event);
+      EXPECT_DOUBLE_EQ(picker.rate(), expected.rate[i]);
+      EXPECT_EQ(picker.in_event(), at > expected.start && at <= expected.end);
+      EXPECT_EQ(reported, at == expected.end + 1);
+    }
+    EXPECT_EQ(event.step_start, 1000 + expected.start);
+    EXPECT_EQ(event.step_end, 1000 + expected.end);
+    EXPECT_EQ(event.t_start, 50.0 + 0.25 * static_cast<double>(expected.start));
+    EXPECT_EQ(event.t_end, 50.0 + 0.25 * static_cast<double>(expected.end));
+    EXPECT_EQ(event.pe_start, by_hand[static_cast<std::size_t>(expected.start)]);
+    EXPECT_EQ(event.pe_end, by_hand[static_cast<std::size_t>(expected.end)]);
+    EXPECT_EQ(event.size, expected.size);
   }
-  EXPECT_EQ(event.step_start, 1000 + expected.start);
-  EXPECT_EQ(event.step_end, 1000 + expected.end);
-  EXPECT_EQ(event.t_start, 50.0 + 0.25 * static_cast<double>(expected.start));
-  EXPECT_EQ(event.t_end, 50.0 + 0.25 * static_cast<double>(expected.end));
-  EXPECT_EQ(event.pe_start, by_hand[static_cast<std::size_t>(expected.start)]);
-  EXPECT_EQ(event.pe_end, by_hand[static_cast<std::size_t>(expected.end)]);
-  EXPECT_EQ(event.size, expected.size);
-}
-
-TEST(EventPicker, ExponentialByHand) {
-  // A: 1, 0 (not negative: no event yet), -1/2, -1/8, 7/16
-  check_by_hand(PickerReading::exponential, {{0, 1, 0, -0.5, -0.125, 0.4375, 0.71875},
-                                             {false, false, false, true, true, false, false},
-                                             2,
-                                             4,
-                                             0.75});
-}
-
-TEST(EventPicker, AverageByHand) {
-  // A <- (x + A/2) / (3/2) = (2x + A)/3: 4/3, -2/9, -20/27, -13/162, 311/486, 1283/1458
-  check_by_hand(PickerReading::average,
-                {{0, 4.0 / 3, -2.0 / 9, -20.0 / 27, -13.0 / 162, 311.0 / 486, 1283.0 / 1458},
-                 {false, false, true, true, true, false, false},
-                 1,
-                 4,
-                 1.75});
-}
-
-TEST(EventPicker, LiteralByHand) {
-  // Denominators 1, 3/2, 2, 5/2, 3, 7/2. A: 2, 0, -1/2, 0 (the event stays open), 1/3, 1/3
-  check_by_hand(PickerReading::literal, {{0, 2, 0, -0.5, 0, 1.0 / 3, 1.0 / 3},
-                                         {false, false, false, true, true, false, false},
-                                         2,
-                                         4,
-                                         0.75});
-}
-
-TEST(EventPicker, WithoutMemoryTheRawSignDecides) {
-  EventPicker picker(settings(PickerReading::exponential, 0.0));
-  const std::vector<Event> events = pick(picker, by_hand);
-  ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(events[0].step_start, 1);
-  EXPECT_EQ(events[0].step_end, 3);
-  EXPECT_EQ(events[0].size, 2.0);
 }
 
 TEST(EventPicker, SeriesThatStartsWithADrop) {
