@@ -51,14 +51,13 @@ TEST(Plane, SlipWorkAndStressOfACell) {
       sums.add(Contacts{{-2.0, 0.5, 6.0, 1.0, -2.0, -3.0},
                         {-2.9, 0.25, 3.0, 0.5, -1.6, 9.0},
                         {-2.9, 0.25, 3.0, 0.5, -1.6, 9.0}});
-    // Both faces have a particle in every cell; those of the upper one in (1, 2) move.
+    // Both faces have a particle in every cell; those in (1, 2) move, each by half of the slip.
     Faces faces;
     for (int b = 0; b < 4; ++b)
       for (int k = 0; k < 3; ++k)
         for (const bool upper : {true, false}) {
-          const double moves = upper && b == 1 && k == 2 ? 1.0 : 0.0;
-          faces.push_back(
-              {-4.0 + 2.0 * b, 0.5 * moves, 4.0, upper, -5.25 + 1.5 * k, -0.25 * moves});
+          const double moves = b != 1 || k != 2 ? 0.0 : upper ? 0.25 : -0.25;
+          faces.push_back({-4.0 + 2.0 * b, moves, 4.0, upper, -5.25 + 1.5 * k, -0.5 * moves});
         }
     sums.add(faces);
     const FaultRow row = LSM::fault_row(grid, sums.sums().data(), 4);
