@@ -16,10 +16,13 @@ import textwrap
 from pathlib import Path
 
 PROBLEMS = []
+problem = PROBLEMS.append
 
 
-def problem(text):
-    PROBLEMS.append(text)
+def tracked(root, *patterns):
+    """The files of the project whose names match."""
+    said = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", *patterns], cwd=root, capture_output=True, text=True)
+    return [root / name for name in said.stdout.split() if (root / name).exists()]
 
 
 def outside_code(text):
@@ -43,15 +46,9 @@ def anchors(page):
 
 
 def check_markdown(root):
-    pages = [
-        root / name for name in subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=root,
-                                               capture_output=True, text=True).stdout.split()
-    ]
-    pages = pages or [p for p in root.rglob("*.md") if "build" not in p.relative_to(root).parts]
+    pages = tracked(root, "*.md") or [p for p in root.rglob("*.md") if "build" not in p.relative_to(root).parts]
     assert len(pages) > 15, pages
     for page in pages:
-        if not page.exists():
-            continue
         name, text = page.relative_to(root), page.read_text()
         if page.name == "README.md" and len(text.splitlines()) > 150:
             problem(f"{name}: {len(text.splitlines())} lines, at most 150 expected")
@@ -82,12 +79,10 @@ def check_classes(root):
 
 
 def check_comments(root):
-    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.yaml", "inputs/*.sh"], cwd=root,
-                           capture_output=True, text=True).stdout.split()
-    for name in names:
-        for number, line in enumerate((root / name).read_text().splitlines(), 1):
+    for path in tracked(root, "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.yaml", "inputs/*.sh"):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
             if len(line) > 100 and re.match(r" *# \S", line) and "usage" not in line:
-                problem(f"{name}:{number}: a comment of {len(line)} columns, at most 100 expected")
+                problem(f"{path.relative_to(root)}:{number}: a comment of {len(line)} columns, at most 100 expected")
 
 
 def check_scenes(root):
