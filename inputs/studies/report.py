@@ -63,9 +63,6 @@ class Postproc:
             raise ValueError(done.stderr.strip().removeprefix("postproc: "))
         return "".join(line + "\n" for line in done.stdout.splitlines() if not line.startswith("wrote ")) + done.stderr
 
-    def text(self, *words):
-        return f'<div class="wide"><pre>{html.escape(self(*words))}</pre></div>\n'
-
     def figure(self, title, caption):
         """The picture drawn last, as an element of the page; its identifiers must differ from those of others."""
         self.pictures += 1
@@ -77,46 +74,38 @@ class Postproc:
                 f"<figcaption><b>{html.escape(title)}.</b> {caption}</figcaption>\n</figure>\n")
 
 
+def preformatted(text):
+    return f'<div class="wide"><pre>{html.escape(text)}</pre></div>\n'
+
+
 def section(postproc, files, labels, model, kind, settings):
     """Sizes, scaling and times of the catalogues of one model and kind of events; where there is nothing to draw or to fit, why."""
     named = [*files, *(f"--label={label}" for label in labels), "-o", postproc.folder / "out"]
     least, replicas = ["--threshold", settings.threshold] if settings.threshold else [], ["--replicas", settings.replicas]
     of_sizes, of_times = (f"Compare with Fig. {n} of the paper. " if kind == "pe" else "" for n in FIGURES.get(model, ("", "")))
     times = ["intervals", *named, *least, "--delta", 1, "--shuffles", 0, "--method", "likelihood", "--seed", 1]
-
-    def sizes():
-        postproc("histograms", *named, *least, *GUIDES.get(model, []))
-        return postproc.figure(
-            "Densities of event sizes", f"{of_sizes}Straight lines: the paper's exponents; their ranges are †. Ten bins a "
-            "decade, count / (N width), Poisson errors (one decade down where they reach zero).")
-
-    def fits():
-        text = postproc.text("fit", *named, *least, "--seed", 1, *replicas)
-        return text + (postproc.text("fit", *named, "--seed", 1, *replicas, *RANGES[model]) if model in RANGES else "")
-
-    def scaling():
-        return postproc.text("lsm.scaling", *named, *least, "--seed", 1) + postproc.figure(
-            "Characteristic size against length", "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off "
-            "of the sizes; errors by resampling blocks of time; lines: weighted fits.")
-
-    def densities():
-        text = postproc.text(*times, *replicas)
-        return postproc.figure(
-            "Densities of inter-event times", f"{of_times}Start to start; lines: fitted generalised gamma densities, "
-            "maximum likelihood with δ = 1 where that is not degenerate.") + text
-
-    def rescaled():
-        postproc(*times, "--replicas", 0, "--rescale")
-        return postproc.figure("Inter-event times divided by their mean", "Not in the paper; the scaling in which Corral (2004) found the "
-                               "distribution of seismicity to be universal.")
-
     said = f"<p>{PRINTED[model]} Ours is by maximum likelihood on a range with both ends.</p>\n" if model in PRINTED and kind == "pe" else ""
+    # What stands before, what is shown of a command, the command, title and caption of its figure
+    parts = [
+        (f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n", "figure", ["histograms", *named, *least, *GUIDES.get(model, [])],
+         "Densities of event sizes", f"{of_sizes}Straight lines: the paper's exponents; their ranges are †. Ten bins a "
+         "decade, count / (N width), Poisson errors (one decade down where they reach zero)."),
+        (said, "text", ["fit", *named, *least, "--seed", 1, *replicas]),
+        ("", "text", ["fit", *named, "--seed", 1, *replicas, *RANGES.get(model, [])]),
+        ("<h3>Finite-size scaling</h3>\n", "text figure", ["lsm.scaling", *named, *least, "--seed", 1], "Characteristic size against length",
+         "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off of the sizes; errors by resampling blocks of time; lines: weighted fits."),
+        ("<h3>Inter-event times</h3>\n", "figure text", [*times, *replicas], "Densities of inter-event times",
+         f"{of_times}Start to start; lines: fitted generalised gamma densities, maximum likelihood with δ = 1 where that is not degenerate."),
+        ("", "figure", [*times, "--replicas", 0, "--rescale"], "Inter-event times divided by their mean",
+         "Not in the paper; the scaling in which Corral (2004) found the distribution of seismicity to be universal."),
+    ]  # yapf: disable
     out = ""
-    for part in (f"<h3>Event sizes</h3>\n<p>{KINDS.get(kind, '')}</p>\n", sizes, said, fits,
-                 *(("<h3>Finite-size scaling</h3>\n", scaling) if model != "earthquakes" else
-                   ()), "<h3>Inter-event times</h3>\n", densities, rescaled):
+    for before, shown, words, *figure in (part for n, part in enumerate(parts) if (n != 2 or model in RANGES) and (n != 3 or model != "earthquakes")):
+        out += before
         try:
-            out += part() if callable(part) else part
+            text = postproc(*words)
+            made = dict(text=lambda: preformatted(text), figure=lambda: postproc.figure(*figure))
+            out += "".join(made[one]() for one in shown.split())
         except ValueError as error:
             out += f'<p class="bad">{html.escape(str(error))}</p>\n'
         for path in postproc.folder.glob("out*"):
@@ -148,7 +137,7 @@ def page_of(settings, folder):
             paths[n] = Path(folder, str(n), re.sub("[.](gz|xz)$", "", Path(path).name))
             paths[n].parent.mkdir()
             postproc("select", path, f"--from={begin[n]}", "-o", paths[n])
-    counts = postproc.text("count", *paths, *(f"--label={label}" for label in labels), "--json", folder / "count.json")
+    counts = preformatted(postproc("count", *paths, *(f"--label={label}" for label in labels), "--json", folder / "count.json"))
     names = [row["label"] for row in json.loads((folder / "count.json").read_text())["catalogues"]]
     groups = {}
     for n, path in enumerate(paths):
