@@ -67,9 +67,9 @@ class Compare : public Statistic {
     out.data("smallest_size", [](auto &line) { return line.threshold; });
     out.column("n_first", "events", [](auto &line) { return line.test.n[0]; });
     out.column("n_second", "events", [](auto &line) { return line.test.n[1]; });
-    out.show("mean", [](auto &line) { return line.test.means[0]; });
-    out.show("mean", [](auto &line) { return line.test.means[1]; });
-    out.show("ratio", [](auto &line) { return line.test.ratio; });
+    out.column("mean_first", "mean", [](auto &line) { return line.test.means[0]; });
+    out.column("mean_second", "mean", [](auto &line) { return line.test.means[1]; });
+    out.column("ratio", "ratio", [](auto &line) { return line.test.ratio; });
     out.column(
         "ks_distance", "distance", [](auto &line) { return line.test.distance; }, 3);
     out.column("p", "p", [](auto &line) { return line.test.p; });
@@ -77,9 +77,6 @@ class Compare : public Statistic {
     out.show("", [](auto &line) {
       return line.test.p.value < 0.05 ? "they differ" : "no difference seen";
     });
-    out.data("mean_first", [](auto &line) { return line.test.means[0]; });
-    out.data("mean_second", [](auto &line) { return line.test.means[1]; });
-    out.data("ratio", [](auto &line) { return line.test.ratio; });
     out.comment(
         "p: share of random divisions of the two series, by blocks of consecutive values, "
         "whose Kolmogorov-Smirnov distance is as large");

@@ -54,12 +54,12 @@ class Intervals : public Statistic {
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
     TableOf<IntervalCurve> table;
-    table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
+    table.column("label", "catalogue", [](auto &curve) { return curve.label; });
     table.show("events", source_of);
-    table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
+    table.data("threshold", [](auto &curve) { return curve.threshold.size; });
     table.column("n", "inter-event times", &IntervalCurve::n);
     table.column("mean", "mean", &IntervalCurve::mean, 6);
-    table.show("in", [](auto &curve) { return curve.sample.unit; });
+    table.show("in", [](auto &curve) { return curve.unit; });
     table.column("variation", "standard deviation / mean", &IntervalCurve::variation);
     for (const IntervalCurve &curve : curves) table.row(curve);
     return Table(std::move(table));
@@ -84,12 +84,12 @@ class Intervals : public Statistic {
       if (curve.bins.empty())
         results.warn(
             curve.n > 0
-                ? curve.sample.label + ": all times are 0: the events start together"
+                ? curve.label + ": all times are 0: the events start together"
                 : fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
-                              curve.sample.label, short_number(curve.sample.threshold.size)));
+                              curve.label, short_number(curve.threshold.size)));
       else if (curve.zeros > 0)
         results.warn(fmt::format("{}, {}: {} of {} times are 0, left out of densities and fits",
-                                 curve.sample.label, curve.sample.from(), curve.zeros, curve.n));
+                                 curve.label, curve.from(), curve.zeros, curve.n));
     results.table("fits", interval_fit_table(curves, settings_.rescale), ".fits");
     results.table("times", times_of(curves));
     results.table("clustering", clustering_table(curves), ".clustering");

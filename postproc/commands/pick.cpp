@@ -57,9 +57,8 @@ class Pick : public Analysis {
 
   void add_options(CLI::App *command) override {
     OptionGroup group(command);
-    add_series(group, series_);
+    add_series(group, series_, samples_, false);
     add_file(group, "Catalogue to write");
-    add_samples(group, samples_, false);
     json.add_to(command);
     group.add("--warmup", warmup_,
               "Leave out events that start before this time (model time) † (default: as in the "

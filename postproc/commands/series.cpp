@@ -26,8 +26,7 @@ class Series : public Analysis {
 
   void add_options(CLI::App *command) override {
     OptionGroup group(command);
-    add_series(group, series_);
-    add_samples(group, samples_, true);
+    add_series(group, series_, samples_, true);
     json.add_to(command);
     group.add("--title", title_, "Title of the picture", shown("number of events and times"));
     group.add("--columns", columns_,
@@ -45,7 +44,7 @@ class Series : public Analysis {
   struct Samples {
     explicit Samples(std::int64_t columns) : curves(columns) {}
     std::int64_t count = 0, picked = 0;  // samples and events in the window
-    Extent times;
+    Range times;
     Thinner curves;
     Table events{"t_start,t_end,pe_start,pe_end,size"};
     std::string model;
@@ -59,7 +58,7 @@ class Series : public Analysis {
     EventFilter filter(filter_settings(picker_, series.info()));
     Samples out(columns_);
     out.picker = picker.settings();
-    Extent &times = out.times;
+    Range &times = out.times;
     double before = nan;
     Event event;
     out.model = series.info().model;
@@ -79,7 +78,7 @@ class Series : public Analysis {
 
   Results find() override {
     Samples samples = read();
-    const Extent &times = samples.times;
+    const Range &times = samples.times;
     std::string title = title_;
     if (title.empty())
       title = fmt::format("{} events, time {} to {}", samples.picked, short_number(times.lo, 7),

@@ -8,17 +8,14 @@
 
 namespace LSM::postproc {
 
-void add_samples(OptionGroup group, SeriesOptions &of, bool window) {
+void add_series(OptionGroup group, std::string &path, SeriesOptions &of, bool window) {
+  group.add("series", path, "PE series, written by compute lsm/events or slider_cli", required());
   group.flag("--lenient", of.lenient,
              "Drop a truncated last sample, as a killed run leaves it; anything else wrong in a "
              "series always is an error");
   if (!window) return;
   group.add("--from", of.from_time, "First time used (model time)", shown("start"));
   group.add("--to", of.to_time, "Last time used (model time)", shown("end"));
-}
-
-void add_series(OptionGroup group, std::string &path) {
-  group.add("series", path, "PE series, written by compute lsm/events or slider_cli", required());
 }
 
 void add_picker_options(CLI::App *command, PickerOptions &options) {

@@ -11,12 +11,9 @@
 
 namespace LSM::postproc {
 
-/// Adds --lenient.
+/// Adds the argument of commands that read one series, and --lenient.
 /// \param window whether to add --from and --to as well
-void add_samples(OptionGroup group, SeriesOptions &of, bool window);
-
-/// Adds the argument of commands that read one series.
-void add_series(OptionGroup group, std::string &path);
+void add_series(OptionGroup group, std::string &path, SeriesOptions &of, bool window);
 
 /// Adds the options of the picker to a command.
 void add_picker_options(CLI::App *command, PickerOptions &options);

@@ -11,8 +11,7 @@
 namespace LSM::postproc {
 
 std::string source_of(const IntervalCurve &curve) {
-  return curve.sample.earthquakes ? curve.sample.from()
-                                  : "sizes >= " + text(curve.sample.threshold);
+  return curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold);
 }
 
 namespace {
@@ -39,19 +38,19 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
   std::set<double> thresholds;
   std::set<std::string> sources;
   for (const IntervalCurve &curve : curves) {
-    thresholds.insert(curve.sample.threshold.size);
+    thresholds.insert(curve.threshold.size);
     sources.insert(source_of(curve));
   }
   for (const std::string &source : sources) table.comment(source);
   Curves plot("$6", "$7 > 0");
-  Extent range, heights;
+  Range range, heights;
   std::int64_t number = 0;
   bool any_accepted = false, any_rejected = false;
   for (const IntervalCurve &curve : curves) {
     if (curve.bins.empty()) continue;
     ++number;
     for (const LogBin &bin : curve.bins) {
-      table.row(number, curve.sample.model, curve.sample.threshold.size, bin, curve.sample.label);
+      table.row(number, curve.model, curve.threshold.size, bin, curve.label);
       if (bin.count == 0) continue;
       heights.add(bin.density);
       range.add(bin.lo);
@@ -59,8 +58,8 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
     }
     plot.add_data(number, 8, 9);
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
-             fmt::format("{}{} ({} times)", curve.sample.label,
-                         thresholds.size() > 1 ? ", " + curve.sample.from() : "", curve.n));
+             fmt::format("{}{} ({} times)", curve.label,
+                         thresholds.size() > 1 ? ", " + curve.from() : "", curve.n));
     const IntervalFit *const fit = curve.drawn();
     if (!fit) continue;
     const bool rejected = fit->rejected();
@@ -79,8 +78,8 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled) 
     plot.add(Curves::legend, "keyentry with lines lt 8 dt 1 lw 1.6", "fit not rejected");
   if (any_rejected)
     plot.add(Curves::legend, "keyentry with lines lt 8 dt 3 lw 2", "fit rejected (p < 0.05)");
-  const bool days = std::all_of(curves.begin(), curves.end(),
-                                [](auto &curve) { return curve.sample.earthquakes; });
+  const bool days =
+      std::all_of(curves.begin(), curves.end(), [](auto &curve) { return curve.earthquakes; });
   const std::string unit = days ? "days" : "model time";
   return plot.figure(
       std::move(table),
@@ -107,9 +106,9 @@ constexpr Named numbers[] = {
 
 Table clustering_table(const std::vector<IntervalCurve> &curves) {
   TableOf<IntervalCurve> table;
-  table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
-  table.show("events", [](auto &curve) { return curve.sample.from(); });
-  table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
+  table.column("label", "catalogue", [](auto &curve) { return curve.label; });
+  table.show("events", [](auto &curve) { return curve.from(); });
+  table.data("threshold", [](auto &curve) { return curve.threshold.size; });
   table.column("n", "times", &IntervalCurve::n);
   table.column(
       "departure", "departure from a steady rate",
@@ -149,10 +148,10 @@ Table interval_fit_table(const std::vector<IntervalCurve> &curves, bool rescaled
                             : fmt::format("{}, δ = {} held", line.of.method, short_number(held));
   };
   TableOf<Line> table;
-  table.show("fits", [](auto &line) { return line.curve.sample.label; });
-  table.show("", [](auto &line) { return line.curve.sample.from(); });
+  table.show("fits", [](auto &line) { return line.curve.label; });
+  table.show("", [](auto &line) { return line.curve.from(); });
   table.show("", method);
-  table.data("threshold", [](auto &line) { return line.curve.sample.threshold.size; });
+  table.data("threshold", [](auto &line) { return line.curve.threshold.size; });
   table.column("n", "times", [](auto &line) { return line.fit.n; });
   table.column("gamma", "γ", [](auto &l) { return Measured{l.fit.gamma, l.fit.se_gamma}; });
   table.column("delta", "δ", [](auto &l) { return Measured{l.fit.delta, l.fit.se_delta}; });
@@ -167,7 +166,7 @@ Table interval_fit_table(const std::vector<IntervalCurve> &curves, bool rescaled
   table.column("rejected", "rejected", [](auto &line) {
     return std::isnan(line.of.p.value) ? "" : line.of.rejected() ? "yes" : "no";
   });
-  table.data("source", [](auto &line) { return line.curve.sample.label; });
+  table.data("source", [](auto &line) { return line.curve.label; });
   table.data("method", method);
   table.column(
       "shortest", "from", [](auto &line) { return line.fit.lo; }, 3);

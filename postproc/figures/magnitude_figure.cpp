@@ -48,7 +48,7 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves) {
   Table table("curve,model,magnitude,count,from_here_on,label");
   table.comment("count: events in the bin centred at magnitude; from_here_on: in it and above");
   Curves plot("$3");
-  Extent magnitudes;
+  Range magnitudes;
   double most = 0.0, margin = 0.0;
   std::int64_t number = 0;
   for (const MagnitudeCurve &curve : curves) {

@@ -12,7 +12,7 @@ namespace LSM::postproc {
 namespace {
 
 /// gnuplot range of an axis, with some space around the values.
-std::string roomy(Extent range) {
+std::string roomy(Range range) {
   const double middle = 0.5 * (range.lo + range.hi);
   double half = 0.56 * (range.hi - range.lo);
   if (!(half > 0.0)) half = middle == 0.0 ? 1.0 : 0.1 * std::fabs(middle);
@@ -53,7 +53,7 @@ Figure series_figure(const Thinner &curves, const std::string &title, double t0,
     table.row(row.time, row.values[0], row.values[1], row.values[2]);
   // Labels of ticks are rounded, which would hide small changes on a large offset. Then the
   // distance from the lowest value is drawn.
-  const Extent pe = curves.range(0);
+  const Range pe = curves.range(0);
   const bool shifted = pe.hi - pe.lo < 0.01 * std::max(std::fabs(pe.hi), std::fabs(pe.lo));
   const double shift = shifted ? pe.lo : 0.0;
   // Arrows that are too short to be seen would only hide the curve.
@@ -68,8 +68,8 @@ Figure series_figure(const Thinner &curves, const std::string &title, double t0,
                    "title 'size of the event'",
                    text::number(shift), text::number(shortest))
              : "";
-  Extent change = curves.range(1), smoothed = curves.range(2);
-  for (Extent *range : {&change, &smoothed}) range->add(0.0);
+  Range change = curves.range(1), smoothed = curves.range(2);
+  for (Range *range : {&change, &smoothed}) range->add(0.0);
   return {std::move(table),
           fmt::format(
               panels, fmt::arg("title", quote(title)), fmt::arg("t0", text::number(t0)),

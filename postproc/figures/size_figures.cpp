@@ -15,7 +15,7 @@ namespace {
 
 /// Sets the missing ends of a line, and a missing amplitude so that the line lies above all points
 /// between its ends. The amplitude is 0 if there are no such points.
-PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, const Extent &sizes) {
+PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, const Range &sizes) {
   if (std::isnan(line.lo)) line.lo = sizes.lo;
   if (std::isnan(line.hi)) line.hi = sizes.hi;
   if (!std::isnan(line.amplitude)) return line;
@@ -39,7 +39,7 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
   Curves curves("$6", "$7 > 0");
   std::vector<std::int64_t> numbers;  // number of each catalogue's curve; 0: not drawn
   std::int64_t number = 0;
-  Extent sizes, heights;
+  Range sizes, heights;
   for (const SizeDensity &density : densities) {
     numbers.push_back(density.bins.empty() ? 0 : ++number);
     if (density.bins.empty()) continue;

@@ -46,14 +46,13 @@ class Results {
   void file(const std::string &path, std::function<void()> close) {
     all_.push_back({{}, WrittenFile{path, std::move(close)}, {}});
   }
-  void table(const std::string &name, Table table, const std::string &ending) {
-    all_.push_back({name, std::move(table), ending});
+  /// \param ending none: the table is printed and in JSON, but in no file of its own
+  void table(const std::string &name, Table table, std::optional<std::string> ending = {}) {
+    all_.push_back({name, std::move(table), std::move(ending)});
   }
   void figure(const std::string &name, Figure figure, const std::string &ending = "") {
     all_.push_back({name, std::move(figure), ending});
   }
-  /// Adds a table that is printed and in JSON, but in no file of its own.
-  void table(const std::string &name, Table table) { all_.push_back({name, std::move(table), {}}); }
   const std::vector<Result> &all() const { return all_; }
 
  private:

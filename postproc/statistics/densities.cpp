@@ -41,7 +41,7 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   std::vector<SizeDensity> all;
   double least = std::numeric_limits<double>::infinity();
   bool any = false;
-  Extent sizes;
+  Range sizes;
   std::size_t events = 0;
   expect_events(tables);
   for (const EventTable &table : tables) {

@@ -15,6 +15,7 @@
 
 #include "files/catalogue.h"
 #include "magnitudes.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -23,11 +24,6 @@ constexpr double paper_threshold = 1e-4;
 
 /// Value of CatalogueInfo::model for earthquakes.
 constexpr std::string_view seismicity = "seismicity";
-
-/// Range of sizes or times.
-struct Range {
-  double lo, hi;
-};
 
 /// Whether a time lies before a limit. Times are computed, from steps or from dates, and limits are
 /// typed: those that differ by their rounding only, four units in the last place, are equal.

@@ -63,20 +63,20 @@ std::vector<IntervalFit> fits_of(const std::vector<double> &times, const Interva
 IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
                        const IntervalSettings &settings) {
   IntervalCurve curve;
-  curve.sample.label = table.label;
-  curve.sample.model = table.info.model;
-  curve.sample.earthquakes = table.earthquakes();
-  curve.sample.unit = table.time_unit();
-  curve.sample.rescaled = settings.rescale;
-  curve.sample.threshold = threshold.of(table);
-  std::vector<double> times = inter_event_times(table, curve.sample.threshold.size);
+  curve.label = table.label;
+  curve.model = table.info.model;
+  curve.earthquakes = table.earthquakes();
+  curve.unit = table.time_unit();
+  curve.rescaled = settings.rescale;
+  curve.threshold = threshold.of(table);
+  std::vector<double> times = inter_event_times(table, curve.threshold.size);
   curve.n = static_cast<std::int64_t>(times.size());
   curve.mean = mean_of(times);
   curve.variation = variation_of(times);
   const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
   if (shuffles > 0) {
     curve.clustering = clustering(times, shuffles, settings.seed);
-    curve.steadiness = steadiness(column_from(table, curve.sample.threshold.size, &Event::t_start),
+    curve.steadiness = steadiness(column_from(table, curve.threshold.size, &Event::t_start),
                                   shuffles, settings.seed);
   }
   // Times of 0 occur, as events of zero length can start at the same time.
@@ -86,10 +86,10 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
   curve.bins = log_histogram(times);
-  curve.sample.memory = table.picker_memory();
-  if (settings.rescale) curve.sample.memory /= curve.mean;
+  curve.memory = table.picker_memory();
+  if (settings.rescale) curve.memory /= curve.mean;
   if (!times.empty())
-    curve.shortest = shortest_time(settings.shortest, curve.sample.memory, curve.fitted_mean());
+    curve.shortest = shortest_time(settings.shortest, curve.memory, curve.fitted_mean());
   curve.fits = fits_of(times, curve, settings);
   return curve;
 }

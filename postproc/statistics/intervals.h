@@ -66,20 +66,14 @@ struct IntervalFit {
 /// Describes the events used: "sizes >= 0.001", or "magnitudes >= 2" for earthquakes.
 std::string events_from_text(bool earthquakes, double least);
 
-/// Which times a curve is of.
-struct IntervalSample {
+/// Inter-event times of one catalogue above one threshold.
+struct IntervalCurve {
   std::string label, model;
   bool earthquakes = false;  ///< sizes are 10^(1.5 M)
   std::string unit;          ///< of the times before rescaling
   bool rescaled = false;     ///< bins and fits are of times divided by their mean
   SmallestSize threshold;
-  double memory = 0.0;  ///< memory of the picker in the unit of the fitted times; NaN: none
-  std::string from() const { return events_from_text(earthquakes, threshold.size); }
-};
-
-/// Inter-event times of one catalogue above one threshold.
-struct IntervalCurve {
-  IntervalSample sample;
+  double memory = 0.0;       ///< memory of the picker in the unit of the fitted times; NaN: none
   std::vector<LogBin> bins;  ///< density of the times
   std::int64_t n = 0;        ///< number of inter-event times
   std::int64_t zeros = 0;    ///< those of 0, which are left out of densities and fits
@@ -95,7 +89,8 @@ struct IntervalCurve {
   Steadiness steadiness;  ///< under the same conditions
 
   /// Mean of the fitted times.
-  double fitted_mean() const { return sample.rescaled ? 1.0 : mean; }
+  double fitted_mean() const { return rescaled ? 1.0 : mean; }
+  std::string from() const { return events_from_text(earthquakes, threshold.size); }
   /// The fit to draw: the first one that is not degenerate, or nullptr. The fit to quote is the
   /// first: maximum likelihood with delta = 1.
   const IntervalFit *drawn() const;

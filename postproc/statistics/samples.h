@@ -18,8 +18,8 @@
 
 namespace LSM::postproc {
 
-/// Smallest and largest of the values seen.
-struct Extent {
+/// A range of sizes or times, or of the values that were added.
+struct Range {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   void add(double x) {
     lo = std::min(lo, x);

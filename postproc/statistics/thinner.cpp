@@ -56,7 +56,7 @@ std::vector<Thinner::Row> Thinner::rows() const {
   return out;
 }
 
-Extent Thinner::range(std::size_t curve) const {
+Range Thinner::range(std::size_t curve) const {
   Extremes all;
   for (const Group &group : groups_) all.add(group.extremes[curve]);
   return all.range;

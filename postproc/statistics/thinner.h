@@ -33,11 +33,11 @@ class Thinner {
   std::int64_t groups() const { return static_cast<std::int64_t>(groups_.size()); }
   bool thinned() const { return in_each_ > 1; }
   /// Range of all samples of a curve.
-  Extent range(std::size_t curve) const;
+  Range range(std::size_t curve) const;
 
  private:
   struct Extremes {
-    Extent range;
+    Range range;
     bool rising = true;  ///< whether the largest value came after the smallest
     void add(const Extremes &later);
   };
