@@ -41,7 +41,7 @@ def count(path, number):
 
 
 # ---- densities
-def test_histograms(do, no):
+def test_histograms(do):
     # 90 events are in the bin from 1e-3 to 10^-2.9, 10 in that from 1e-2 to 10^-1.9, and 7 are too small.
     fault("a.csv", [1.1e-3] * 90 + [1.1e-2] * 10 + [5e-5] * 7)
     slider("b.csv", power_law(1, 1e-3, 1, 1000))
@@ -64,12 +64,9 @@ def test_histograms(do, no):
     do("histograms a.csv --threshold 0 -o c --no-picture")
     assert not Path("c.png").exists(), "--no-picture drew a picture"
     assert count("c.csv", 1) == 107
-    no("expected SLOPE", "histograms a.csv --guide steep -o x")
-    no("expected LO:HI", "fit a.csv --range 3 -o x")
-    no("nothing to draw", "histograms a.csv --threshold 1 -o x")
 
 
-def test_intervals(do, no):
+def test_intervals(do):
     # There are 100 times of 5, then 50 of 50.
     times = np.concatenate([[0], np.cumsum([5] * 100 + [50] * 50)])
     fault("a.csv", np.where(np.arange(151) % 2, 1, 2), times=times)
@@ -90,8 +87,6 @@ def test_intervals(do, no):
     few.printed("rejected: p below 0.05")
     none = do("intervals a.csv --delta 1 --method likelihood --replicas 0 --shuffles 0 -o p --no-picture")
     assert not [line for line in none.out.splitlines() if "γ" in line and "rejected" in line], "a p-value without replicas"
-    no("replicas", "intervals a.csv --replicas -1 -o x")
-    no("expected 'free' or a positive number", "intervals a.csv --delta x -o x")
 
 
 def exponents(path):
@@ -118,8 +113,6 @@ def test_fit(do, no):
     # The bin that contains the smallest size is incomplete and does not count.
     assert max(float(row["size"]) for row in table("a.csv")) >= 0.8
     no("no bin of sizes from 0.8 on has an event", "fit a.csv --threshold 0.8 --replicas 0 --no-picture -o x")
-    no("expected LO above 0", "fit a.csv --range :1 -o x")
-    no("sizes from 0 on, expected --threshold above 0", "fit a.csv --threshold 0 -o x")
     # Events left out below a size do not make the law flatter, as the fit begins there.
     do("fit a.csv --min-size 0.01 --range 1e-3:1 --range 1e-3:0.01 --replicas 0 --no-comparison -o m --no-picture")
     whole = [row for row in exponents("m.fits.csv") if row[1] == 0.01 and row[3] > 1300]
@@ -132,14 +125,13 @@ def test_fit(do, no):
     said("m.fits.csv", "^lsm,0.01,1,")
 
 
-def test_seismology(do, no):
+def test_seismology(do):
     fault("a.csv", power_law(1.7, 1e-3, 1e3, 2000))
     fault("b.csv", power_law(1.2, 1e-3, 1e3, 2000), 240)
     do("magnitudes a.csv b.csv --threshold 1e-3 --label 'a_{x}' --label b -o m")
     pictures("m")
     said("m.gp", "b = 1.")
     said("m.svg", re.escape("a_{x} (2000 events)"))
-    no("nothing to draw", "magnitudes a.csv --min-size 1e9 -o x")
 
 
 def test_tables_of_many_catalogues_fit_a_terminal(do):
