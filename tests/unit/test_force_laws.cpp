@@ -43,32 +43,23 @@ TEST(Contact, ShareOfTheStepItBeginsIn) {
   EXPECT_EQ(LSM::share_in_contact(0.9, 0.9, 1.0), 0.0);  // nothing moved: no contact begins
 }
 
-TEST(Friction, SticksBelowTheLimit) {
-  const auto s = friction_step<Coulomb>(kOne, {1.0, 0.1, 0.1, 0.0, false});
-  EXPECT_DOUBLE_EQ(s.xi, 0.2);
-  EXPECT_DOUBLE_EQ(s.force, 0.4);
-  EXPECT_EQ(s.slip, 0.0);
-  EXPECT_EQ(s.dissipated, 0.0);
-  EXPECT_FALSE(s.sliding);
-}
-
-TEST(Friction, SlidesAtTheLimitInBothDirections) {
-  for (double sign : {1.0, -1.0}) {
-    const auto s = friction_step<Coulomb>(kOne, {1.0, sign * 0.2, sign * 0.15, 0.0, false});
-    EXPECT_DOUBLE_EQ(s.force, sign * 0.5);  // mu F_n, Eq. (3)
-    EXPECT_DOUBLE_EQ(s.xi, sign * 0.25);
-    EXPECT_NEAR(s.slip, sign * 0.1, 1e-15);
-    EXPECT_TRUE(s.sliding);
-    EXPECT_GT(s.dissipated, 0.0);
+// A contact with mu 0.5 and kt 2 sticks below the limit mu fn, Eq. (3), slides at it in both
+// directions, and slips the way its spring pulls where it is the load that falls.
+TEST(Friction, SticksOrSlides) {
+  const struct {
+    double fn, xi, dxi, left, slip;
+  } steps[] = {{1.0, 0.1, 0.1, 0.2, 0.0},
+               {1.0, 0.2, 0.15, 0.25, 0.1},
+               {1.0, -0.2, -0.15, -0.25, -0.1},
+               {0.1, 0.4, -0.01, 0.025, 0.365}};
+  for (const auto &step : steps) {
+    const auto s = friction_step<Coulomb>(kOne, {step.fn, step.xi, step.dxi, 0.0, false});
+    EXPECT_DOUBLE_EQ(s.xi, step.left);
+    EXPECT_DOUBLE_EQ(s.force, 2.0 * step.left);
+    EXPECT_NEAR(s.slip, step.slip, 1e-15);
+    EXPECT_EQ(s.sliding, step.slip != 0.0);
+    EXPECT_EQ(s.dissipated > 0.0, step.slip != 0.0);
   }
-}
-
-TEST(Friction, SlipsTheWayTheSpringPullsWhereTheLoadFalls) {
-  // The discs move back a little, but it is the lower load that no longer supports the spring.
-  const auto s = friction_step<Coulomb>({2.0, 0.5, 0.5}, {0.1, 0.4, -0.01, 0.0, false});
-  EXPECT_DOUBLE_EQ(s.xi, 0.025);
-  EXPECT_DOUBLE_EQ(s.slip, 0.365);
-  EXPECT_GT(s.dissipated, 0.0);
 }
 
 TEST(StaticFriction, HoldsUpToTheStaticLimitThenDropsToTheDynamicOne) {

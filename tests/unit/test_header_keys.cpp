@@ -32,34 +32,28 @@ TEST(HeaderKeys, NumberedKeysAreThoseOfTheFirst) {
 }
 
 TEST(HeaderKeys, ValuesOutOfRangeAreNamed) {
-  for (const auto &[key, value] :
-       std::vector<std::pair<std::string, std::string>>{{"completeness", "-1"},
-                                                        {"completeness", "inf"},
-                                                        {"min_size", "x"},
-                                                        {"lambda", "1"},
-                                                        {"warmup", "nan"},
-                                                        {"length", "0"},
-                                                        {"dt", "0"},
-                                                        {"blocks", "0"},
-                                                        {"blocks", "16.5"},
-                                                        {"seed", "one"},
-                                                        {"stride", "1.5"},
-                                                        {"velocity", "0.02-0.05"},
-                                                        {"modulus", "inf"},
-                                                        {"picker", "best"},
-                                                        {"keep_nonpositive", "perhaps"}})
-    EXPECT_EQ(bad_value(key, value).find(key + " is '" + value + "', expected "), 0u) << key;
-  for (const auto &[key, value] :
-       std::vector<std::pair<std::string, std::string>>{{"completeness", "0"},
-                                                        {"lambda", "0"},
-                                                        {"warmup", "-5"},
-                                                        {"picker", "literal"},
-                                                        {"checkpoint", "1e5"},
-                                                        {"velocity", "-0.5"},
-                                                        {"keep_nonpositive", "no"},
-                                                        {"something", "else"},
-                                                        {"length_2", "none"}})
-    EXPECT_EQ(bad_value(key, value), "") << key;
+  const auto bad = [](const std::string &key, const std::vector<const char *> &values,
+                      const std::vector<const char *> &good) {
+    for (const std::string value : values)
+      EXPECT_EQ(bad_value(key, value).find(key + " is '" + value + "', expected "), 0u) << key;
+    for (const char *value : good) EXPECT_EQ(bad_value(key, value), "") << key;
+  };
+  bad("completeness", {"-1", "inf"}, {"0"});
+  bad("min_size", {"x"}, {});
+  bad("lambda", {"1"}, {"0"});
+  bad("warmup", {"nan"}, {"-5"});
+  bad("length", {"0"}, {});
+  bad("length_2", {}, {"none"});
+  bad("dt", {"0"}, {});
+  bad("blocks", {"0", "16.5"}, {});
+  bad("seed", {"one"}, {});
+  bad("stride", {"1.5"}, {});
+  bad("checkpoint", {}, {"1e5"});
+  bad("velocity", {"0.02-0.05"}, {"-0.5"});
+  bad("modulus", {"inf"}, {});
+  bad("picker", {"best"}, {"literal"});
+  bad("keep_nonpositive", {"perhaps"}, {"no"});
+  bad("something", {}, {"else"});
 }
 
 void expect_known(const LSM::files::Parameters &header) {
