@@ -1,5 +1,4 @@
-# Draws work-precision.png and work-precision.svg from differences.csv; the columns massfloor and
-# kt are those of published tables
+# Draws work-precision.png and work-precision.svg from differences.csv
 set datafile separator ","
 set datafile columnheaders
 if (!exists("table")) { table = "differences.csv" }
@@ -23,9 +22,8 @@ set xtics format "10^{%L}"
 # rows of the table, named by their settings
 rows = STATS_records
 label(n) = system(sprintf("awk -F, '/^#/ { next } !h { h = 1; for (i = 1; i <= NF; i++) c[$i] = i; next } k++ == %d {" \
-  ." m = \"massstep\" in c ? ($c[\"massstep\"] > 0 ? \"raised\" : \"r^2\") : $c[\"massfloor\"] > 0 ? \"≥ \" $c[\"massfloor\"] : \"r^2\";" \
-  ." printf(\"dt %%s, masses %%s%%s%%s\", $c[\"dt\"], m, $c[\"onset\"] == \"step\" ? \", onset step\" : \"\"," \
-  ." !(\"kt\" in c) || $c[\"kt\"] == \"\" || $c[\"kt\"] == 1 ? \"\" : \", kt \" $c[\"kt\"]) }' %s", n, table))
+  ." printf(\"dt %%s, masses %%s%%s\", $c[\"dt\"], $c[\"massstep\"] > 0 ? \"raised\" : \"r^2\"," \
+  ." $c[\"onset\"] == \"step\" ? \", onset step\" : \"\") }' %s", n, table))
 one(n, c) = int(column(0)) == n ? column(c) : NaN
 set for [n=0:7] linetype n + 1 lc rgb word("#000000 #0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #7A6A00", n + 1) pt 7
 set key at screen 0.06,0.20 left top Left reverse samplen 1 maxrows 3 width -2
