@@ -20,7 +20,6 @@ namespace LSM::postproc {
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC
   double latitude = 0.0, longitude = 0.0;  ///< degrees; NaN if the file has none
-  double depth = NAN;                      ///< km; NaN if the file has none
   double magnitude = 0.0;                  ///< as in the file, of any type
 };
 

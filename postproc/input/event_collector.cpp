@@ -97,9 +97,6 @@ void Collector::add(const Record &record, std::int64_t line) {
   if (!number(Field::latitude, "latitude", 90.0, event.latitude) ||
       !number(Field::longitude, "longitude", 360.0, event.longitude))
     return;
-  // A depth only goes on to other files.
-  event.depth =
-      text::parse(record[Field::depth], event.depth) ? event.depth / record.depth_per_km : NAN;
   const std::string &size = record[Field::magnitude];
   if (is_missing(size)) {
     ++list_.without_magnitude;

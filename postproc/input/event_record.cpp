@@ -62,7 +62,6 @@ constexpr struct {
     {role_of_field(Field::longitude), "longitude lon long lng longitud"},
     {role_of_field(Field::magnitude), "mag magnitude mw magnitud"},
     {role_of_field(Field::type), "eventtype evtype etype type"},
-    {role_of_field(Field::depth), "depth dep depthkm profundidad"},
     {of_other_magnitude,
      "mag magnitude mw mww mwc mwb mwr mwp ml mlv md mc mh mb mblg ms mj me xm"}};
 

@@ -23,7 +23,7 @@ std::string in_small_letters(std::string_view text);
 bool is_missing(std::string_view text);
 
 /// What files may hold of an event.
-enum class Field { latitude, longitude, magnitude, type, depth, number_of_fields };
+enum class Field { latitude, longitude, magnitude, type, number_of_fields };
 
 /// One event as in the file, with empty texts for what the file does not have.
 struct Record {
@@ -31,9 +31,8 @@ struct Record {
   std::string time = {};          ///< its texts, for messages
   std::optional<double> at = {};  ///< days since 1970, unless the time cannot be read
   std::string problem = {};       ///< what was expected instead of such a time, if known
-  double depth_per_km = 1.0;
-  bool has_origin = true;        ///< whether there is any time and place
-  double other_magnitude = 0.0;  ///< the largest of the event's other magnitudes
+  bool has_origin = true;         ///< whether there is any time and place
+  double other_magnitude = 0.0;   ///< the largest of the event's other magnitudes
 
   std::string &operator[](Field field) { return texts[static_cast<std::size_t>(field)]; }
   const std::string &operator[](Field field) const {

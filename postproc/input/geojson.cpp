@@ -89,7 +89,6 @@ void read_geojson(std::string_view content, Collector &out) {
     if (coordinates.is_array() && coordinates.size() >= 2) {
       record[Field::longitude] = text_of(coordinates[0]);
       record[Field::latitude] = text_of(coordinates[1]);
-      if (coordinates.size() > 2) record[Field::depth] = text_of(coordinates[2]);
     }
     out.add(record, number);
   }

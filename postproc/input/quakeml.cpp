@@ -134,7 +134,6 @@ class QuakemlReader {
     return inside_ == "/origin/time/value"        ? &event_->origins.back().record.time
            : inside_ == "/origin/latitude/value"  ? in(event_->origins, Field::latitude)
            : inside_ == "/origin/longitude/value" ? in(event_->origins, Field::longitude)
-           : inside_ == "/origin/depth/value"     ? in(event_->origins, Field::depth)
            : inside_ == "/magnitude/mag/value"    ? in(event_->magnitudes, Field::magnitude)
            : inside_ == "/type"                   ? &event_->type
            : inside_ == "/preferredOriginID"      ? &event_->origin_id
@@ -169,7 +168,6 @@ class QuakemlReader {
     const QuakemlPart *const size = preferred(event.magnitudes, event.magnitude_id, found);
     Record record = origin ? origin->record : Record();
     record[Field::type] = event.type;
-    record.depth_per_km = 1000.0;
     record.has_origin = origin != nullptr;
     record.at = parse_date(record.time, record.problem);
     if (size) record[Field::magnitude] = size->record[Field::magnitude];

@@ -271,7 +271,6 @@ void read_scedc(std::string_view content, Collector &out) {
     record[Field::magnitude] = f[5] == "n" ? std::string() : f[4];
     record[Field::latitude] = f[6];
     record[Field::longitude] = f[7];
-    record[Field::depth] = f[8];
     out.add(record, lines.number);
   }
 }
