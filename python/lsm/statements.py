@@ -13,7 +13,6 @@
 import math
 
 import numpy as np
-from scipy.stats import t as student
 
 from lsm.analysis import events_of, numbers_of
 from lsm.history import History
@@ -34,6 +33,7 @@ def largest_rise(edges, content):
     """The largest ratio of the density in a bin to that in a bin of smaller values, of those that exceed 1 significantly or, if none does, of
     all, and whether it does. content: one row for each part, one column for each bin. NaN if fewer than two bins have content in half of
     the parts. The level is 5 % (Student's t of the logarithm, one-sided) divided by the number of pairs (Bonferroni)."""
+    from scipy.stats import t as student  # the rest of the module needs NumPy only
     usable = np.flatnonzero(2 * np.count_nonzero(content, axis=0) >= len(content))
     if len(usable) < 2:
         return math.nan, False
