@@ -92,7 +92,7 @@ mkdir -p "$tree" "$build"
   done
 lammps=OFF
 for i in "${chosen[@]}"; do
-  [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* ]] && lammps=ON
+  [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* || ${tests[$i]} = lsm_keywords* ]] && lammps=ON
 done
 grep -q '^LSM_BUILD_LAMMPS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null && lammps=ON
 cmake -S "$tree" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=$lammps \

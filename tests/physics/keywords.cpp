@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The reader of the keywords of all styles, with LAMMPS as a library: what it takes and refuses.
+// With LAMMPS as a library: the reader of the keywords of all styles, what it takes and refuses;
+// and forces that are found again within a run, as by the package MDI.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "exceptions.h"
+#include "force.h"
+#include "input.h"
+#include "integrate.h"
 #include "lammps.h"
 #include "lsm_keyword_reader.h"
+#include "pair.h"
+#include "update.h"
 
 namespace {
 
@@ -106,6 +113,46 @@ TEST(Keywords, WhatIsWrongIsNamed) {
   for (const Case &one : cases) refused(Read(one.words), one.error);
   refused(Read({"number", "1"}, {"number", "seed"}),
           "Fix x seed is missing; needed are number and seed");
+}
+
+// A disc flies through a lane between discs at rest, which are added to its lists.
+TEST(ForcesAgain, UseTheListsThatWereAddedTo) {
+  const char *options[] = {"lmp", "-log", "none", "-screen", "none"};
+  LAMMPS_NS::LAMMPS lammps(5, const_cast<char **>(options), world);
+  for (const char *command : {"dimension 2",
+                              "boundary p f p",
+                              "newton off",
+                              "atom_style hybrid bond sphere",
+                              "atom_modify map array",
+                              "neighbor 0.4 bin",
+                              "neigh_modify delay 0 every 1 check yes",
+                              "comm_modify mode single cutoff 7",
+                              "processors * 1 1",
+                              "lattice hex 0.2385 origin 0 0.25 0",
+                              "region box block 0 24 0 10 -0.5 0.5",
+                              "create_box 2 box bond/types 1",
+                              "region lane block INF INF 4.9 5.1 INF INF",
+                              "region rows intersect 2 box lane side out",
+                              "create_atoms 1 region rows",
+                              "create_atoms 2 single 6.71 19.13 0 units box",
+                              "set group all diameter 2.0",
+                              "set group all mass 1.0",
+                              "pair_style lsm/free",
+                              "pair_coeff * * 1.0",
+                              "group thrown type 2",
+                              "velocity thrown set 0.9 0.1 0",
+                              "timestep 0.01",
+                              "fix move thrown lsm/nve"})
+    lammps.input->one(command);
+  double most = 0.0;
+  for (int n = 0; n < 20; ++n) {
+    lammps.input->one("run 50 pre no post no");
+    const double energy = lammps.force->pair->eng_vdwl;
+    for (int again = 0; again < 2; ++again) lammps.update->integrate->setup_minimal(0);
+    EXPECT_NEAR(lammps.force->pair->eng_vdwl, energy, 1e-12) << n;
+    most = std::max(most, energy);
+  }
+  EXPECT_GT(most, 1e-3) << "the disc has to touch others";
 }
 
 }  // namespace

@@ -111,17 +111,6 @@ TEST_F(Lists, ParticlesReachTheRankBesideTheirsAtMost) {
   EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9);
 }
 
-// The lists of the first run are those of the second, with what was added to them.
-TEST_F(Lists, OfTheRunBeforeAreUsedOn) {
-  for (const char *pair : {free_pairs, friction_pairs}) {
-    const std::string script =
-        lane(pair, "run 1000\nwrite_coeff coefficients.txt\nrun 1000 pre no\n");
-    const Result exact = ran(script, {{"check", "no"}});
-    const Result r = ran(script);
-    EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9) << pair;
-  }
-}
-
 TEST_F(Lists, AreNewForEachSnapshotOfARerun) {
   const Result r =
       ran(lane(free_pairs,

@@ -57,9 +57,9 @@ double LSMListPatch::find_margin(const NeighList &of) const
   return margin_of_all;
 }
 
-// After an init without a build, the list is the old one, and rows that were added are in use.
-// Other ranks may have refreshed positions of particles that this one knows as ghosts, so all lists
-// are built.
+// Where forces are found again without a build (as by the package MDI), the list is the old one, and
+// rows that were added are in use. Other ranks may have refreshed positions of particles that this
+// one knows as ghosts, so all lists are built.
 void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
 {
   list = nullptr;
