@@ -173,7 +173,7 @@ std::string in_small_letters(std::string_view text) {
 bool is_missing(std::string_view text) {
   static const std::set<std::string, std::less<>> words = {"",    "nan", "null", "none", "na",
                                                            "n/a", "-",   "--",   "---"};
-  return words.count(in_small_letters(text)) > 0;
+  return text.size() <= 4 && words.count(in_small_letters(text)) > 0;
 }
 
 Fields split_blanks(std::string_view line) {

@@ -26,7 +26,9 @@ struct Lines {
   /// Goes on to the next line, by default to one that is no comment.
   bool next(bool comments = false) {
     while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+      const auto ends = [](char c) { return c == '\r' || c == '\n'; };
+      const auto end =
+          static_cast<std::size_t>(std::find_if(rest.begin(), rest.end(), ends) - rest.begin());
       line = rest.substr(0, end);
       rest.remove_prefix(end);
       rest.remove_prefix(rest.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, rest.size()));
@@ -52,7 +54,16 @@ Fields split(std::string_view line, char separator, bool *open = nullptr, bool *
     const std::size_t begin = line.find_first_not_of(" \t#%");
     return split_blanks(line.substr(std::min(begin, line.size())));
   }
-  Fields fields(1);
+  Fields fields;
+  if (line.find('"') == line.npos) {  // most lines
+    fields.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1);
+    for (std::size_t begin = 0, end = 0; end != line.npos; begin = end + 1) {
+      end = line.find(separator, begin);
+      fields.emplace_back(line.substr(begin, end - begin));
+    }
+    return fields;
+  }
+  fields.emplace_back();
   bool quoted = false, begins = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') {
