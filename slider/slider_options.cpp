@@ -215,7 +215,7 @@ class CommandLine {
           value.find_first_of("\"'#;") == std::string_view::npos &&
           value.find_first_of(" \t,[") != std::string_view::npos)
         in.fail(in_quotes(key) + " is " + in_quotes(value) +
-                ", expected one value (in quotes if it has blanks)");
+                ", expected one value (in quotes if it has blanks or commas)");
     }
   }
 

@@ -275,6 +275,13 @@ def test_config(ran):
     same("a b.csv", "b.csv", 5)
 
 
+@pytest.mark.parametrize("ini", sorted((Path(__file__).parents[2] / "inputs/slider").glob("*.ini")), ids=lambda ini: ini.stem)
+def test_config_of_inputs(ran, ini):
+    """Those that are shipped run, with the settings that they name."""
+    ran("--config", ini, "--time 60" if "\ntime = " in ini.read_text() else "--steps 600", "--catalogue a.csv")
+    assert header("a.csv")["blocks"] == ini.stem.split("_")[1]
+
+
 def test_faults(slider, ran, faults):
     """The run is killed at each system call on files, or the call fails: nothing is lost or silently
     wrong."""
