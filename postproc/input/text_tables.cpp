@@ -54,16 +54,12 @@ Fields split(std::string_view line, char separator, bool *open = nullptr, bool *
     const std::size_t begin = line.find_first_not_of(" \t#%");
     return split_blanks(line.substr(std::min(begin, line.size())));
   }
-  Fields fields;
   if (line.find('"') == line.npos) {  // most lines
-    fields.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1);
-    for (std::size_t begin = 0, end = 0; end != line.npos; begin = end + 1) {
-      end = line.find(separator, begin);
-      fields.emplace_back(line.substr(begin, end - begin));
-    }
-    return fields;
+    std::vector<std::string_view> parts;
+    text::split(line, parts, separator);
+    return Fields(parts.begin(), parts.end());
   }
-  fields.emplace_back();
+  Fields fields(1);
   bool quoted = false, begins = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') {

@@ -17,12 +17,10 @@ using namespace LAMMPS_NS;
 
 static std::vector<std::string> split(const std::string &text, char separator)
 {
+  std::vector<std::string_view> fields;
+  LSM::text::split(text, fields, separator);
   std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto end = std::min(text.find(separator, begin), text.size());
-    parts.emplace_back(LSM::text::trim(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string_view field : fields) parts.emplace_back(LSM::text::trim(field));
   return parts;
 }
 

@@ -47,8 +47,8 @@ bool parse(std::string_view text, T &value) {
 
 std::string_view trim(std::string_view text);
 
-/// Splits a line at commas into views of it; n commas make n + 1 fields.
-void split(std::string_view line, std::vector<std::string_view> &fields);
+/// Splits a line into views of it; n separators make n + 1 fields.
+void split(std::string_view line, std::vector<std::string_view> &fields, char separator = ',');
 
 /// Quotes part of a bad line for an error message, shortened and made printable.
 std::string in_quotes(std::string_view text);
